@@ -1,0 +1,111 @@
+"""Linear flows u(x) = Γ·x, measured from the origin of coordinates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from rheoclast import _checks
+from rheoclast._checks import FloatArray
+from rheoclast.vectors import LEVI_CIVITA
+
+TRACE_TOLERANCE = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class LinearFlow:
+    """Undisturbed incompressible linear flow u(x) = Γ·x.
+
+    Parameters
+    ----------
+    gradient
+        Velocity gradient Γ (3, 3) in 1/s, Γ[i, j] = ∂u_i/∂x_j, with zero trace.
+    rate
+        The rate by which the flow is quoted, 1/s: the shear rate of a simple shear, the extension rate of an
+        extension. Defaults to the magnitude sqrt(2 E:E), which is the shear rate in simple shear.
+
+    Raises
+    ------
+    ValueError
+        If the gradient has another shape, is not finite, or has a trace.
+    """
+
+    gradient: FloatArray
+    rate: float | None = None
+
+    def __post_init__(self) -> None:
+        gradient = _checks.real_array("gradient", self.gradient, (3, 3))
+        trace, size = float(np.trace(gradient)), float(np.abs(gradient).max())
+        if abs(trace) > TRACE_TOLERANCE * size:
+            raise ValueError(
+                f"gradient: expected zero trace (an incompressible flow), got {trace:g}; "
+                f"subtract trace/3 = {trace / 3:g} from the diagonal if it is rounding"
+            )
+        object.__setattr__(self, "gradient", gradient)
+        rate = _checks.not_negative("rate", self.magnitude if self.rate is None else self.rate)
+        object.__setattr__(self, "rate", rate)
+
+    @cached_property
+    def strain_rate(self) -> FloatArray:
+        """Strain rate E = (Γ + Γᵀ)/2, (3, 3), in 1/s."""
+        return _checks.frozen(0.5 * (self.gradient + self.gradient.T))
+
+    @cached_property
+    def angular_velocity(self) -> FloatArray:
+        """Angular velocity of the fluid ω = ½ curl u, (3,), in rad/s."""
+        return _checks.frozen(-0.5 * np.einsum("ijk,jk->i", LEVI_CIVITA, self.gradient))
+
+    @cached_property
+    def principal_rates(self) -> FloatArray:
+        """Eigenvalues e1 ≥ e2 ≥ e3 of the strain rate, (3,), in 1/s."""
+        return _checks.frozen(np.linalg.eigvalsh(self.strain_rate)[::-1])
+
+    @property
+    def magnitude(self) -> float:
+        """sqrt(2 E:E) in 1/s, the dissipation rate over viscosity being its square."""
+        return float(np.sqrt(2 * np.sum(self.strain_rate**2)))
+
+    def velocity(self, points: FloatArray) -> FloatArray:
+        """Velocity (..., 3) in m/s at points (..., 3) in m."""
+        return np.asarray(points, dtype=np.float64) @ self.gradient.T
+
+    def rotated(self, rotation: Any) -> LinearFlow:
+        """The flow turned by a rotation R, a (3, 3) matrix or a SciPy `Rotation`: gradient R Γ Rᵀ.
+
+        Turning the flow by R is the same as turning the aggregate by Rᵀ.
+        """
+        matrix = _checks.rotation_matrix("rotation", rotation)
+        return LinearFlow(matrix @ self.gradient @ matrix.T, self.rate)
+
+    def scaled(self, factor: float) -> LinearFlow:
+        """The same flow, `factor` ≥ 0 times as fast."""
+        factor = _checks.not_negative("factor", factor)
+        assert self.rate is not None
+        return LinearFlow(factor * self.gradient, factor * self.rate)
+
+
+def simple_shear(rate: float) -> LinearFlow:
+    """Simple shear u = (rate·y, 0, 0); `rate` in 1/s."""
+    rate = _checks.not_negative("rate", rate)
+    return LinearFlow(rate * np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]), rate)
+
+
+def uniaxial_extension(rate: float) -> LinearFlow:
+    """Uniaxial extension along z, u = rate·(−x/2, −y/2, z); `rate` in 1/s."""
+    rate = _checks.not_negative("rate", rate)
+    return LinearFlow(rate * np.diag([-0.5, -0.5, 1.0]), rate)
+
+
+def biaxial_extension(rate: float) -> LinearFlow:
+    """Biaxial extension in the xy plane, u = rate·(x, y, −2z); `rate` in 1/s."""
+    rate = _checks.not_negative("rate", rate)
+    return LinearFlow(rate * np.diag([1.0, 1.0, -2.0]), rate)
+
+
+def planar_extension(rate: float) -> LinearFlow:
+    """Planar extension, u = rate·(x, −y, 0); `rate` in 1/s."""
+    rate = _checks.not_negative("rate", rate)
+    return LinearFlow(rate * np.diag([1.0, -1.0, 0.0]), rate)

@@ -1,0 +1,29 @@
+"""The one value that crosses from fluid to structure."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rheoclast._checks import FloatArray, real_array
+
+
+@dataclass(frozen=True, eq=False)
+class SphereLoads:
+    """Force and torque on every sphere.
+
+    Attributes
+    ----------
+    force
+        (N, 3), or (..., N, 3) for a batch of load cases, in N.
+    torque
+        Same shape, in N m, about the centre of each sphere.
+    """
+
+    force: FloatArray
+    torque: FloatArray
+
+    def __post_init__(self) -> None:
+        batch = tuple(getattr(self.force, "shape", ())[:-2])
+        force = real_array("force", self.force, (*batch, "N", 3))
+        object.__setattr__(self, "force", force)
+        object.__setattr__(self, "torque", real_array("torque", self.torque, force.shape))

@@ -1,0 +1,1 @@
+"""What exists: spheres, their contacts, and measures of an aggregate's shape."""

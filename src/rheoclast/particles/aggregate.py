@@ -1,0 +1,129 @@
+"""Aggregate: spheres and the contacts that hold them together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from rheoclast import _checks
+from rheoclast._checks import FloatArray, IntArray
+from rheoclast.errors import GeometryError
+from rheoclast.particles.contacts import CONTACT_TOLERANCE, connected_parts, near_pairs
+from rheoclast.particles.spheres import Spheres
+
+
+@dataclass(frozen=True, eq=False)
+class Aggregate:
+    """One connected aggregate of touching spheres. Contact c joins spheres `pairs[c]` = (i, j), i < j.
+
+    Parameters
+    ----------
+    spheres
+        The N spheres.
+    pairs
+        (C, 2) indices of the spheres in contact. `Aggregate.touching` finds them from the surface gaps.
+
+    Raises
+    ------
+    ValueError
+        If an index is out of range, a sphere touches itself or a contact is there twice.
+    GeometryError
+        If the contacts leave the aggregate in several parts.
+    """
+
+    spheres: Spheres
+    pairs: IntArray
+
+    def __post_init__(self) -> None:
+        pairs = _contact_pairs(self.pairs, len(self.spheres))
+        object.__setattr__(self, "pairs", _checks.frozen(pairs))
+        _refuse_parts(self.spheres, pairs)
+
+    @classmethod
+    def touching(cls, spheres: Spheres, tolerance: float = CONTACT_TOLERANCE) -> Aggregate:
+        """The aggregate in which every two spheres touch whose gap is at most `tolerance` mean radii of the pair."""
+        tolerance = _checks.not_negative("tolerance", tolerance)
+        return cls(spheres, near_pairs(spheres.centers, spheres.radii, tolerance)[0])
+
+    def __len__(self) -> int:
+        """Number of spheres, N."""
+        return len(self.spheres)
+
+    @property
+    def normals(self) -> FloatArray:
+        """Unit vectors (C, 3) from sphere i to sphere j of every contact."""
+        first, second = self.pairs.T
+        difference = self.spheres.centers[second] - self.spheres.centers[first]
+        return difference / np.linalg.norm(difference, axis=1, keepdims=True)
+
+    @property
+    def contact_points(self) -> FloatArray:
+        """Points of contact (C, 3) in m: where the surfaces meet, or midway in a small gap or overlap."""
+        first, second = self.pairs.T
+        centers, radii = self.spheres.centers, self.spheres.radii
+        distance = np.linalg.norm(centers[second] - centers[first], axis=1)
+        arm = 0.5 * (distance + radii[first] - radii[second])
+        return centers[first] + arm[:, None] * self.normals
+
+    @property
+    def hyperstaticity(self) -> int:
+        """Degree of hyperstaticity 6 (C − N + 1): zero for a tree, whose contact loads follow from balance alone."""
+        return 6 * (len(self.pairs) - len(self) + 1)
+
+    @property
+    def is_tree(self) -> bool:
+        """Whether no contact closes a loop (isostatic)."""
+        return self.hyperstaticity == 0
+
+
+def _contact_pairs(pairs: IntArray, count: int) -> IntArray:
+    """Checked copy of contact pairs (C, 2) with i < j in each."""
+    given = np.asarray(pairs)
+    if given.size == 0:
+        given = np.empty((0, 2), dtype=np.intp)
+    if given.ndim != 2 or given.shape[1] != 2 or not np.issubdtype(given.dtype, np.integer):
+        raise ValueError(f"pairs: expected integers of shape (C, 2), got {given.dtype} of shape {given.shape}")
+    ordered = np.sort(given, axis=1).astype(np.intp)
+    outside = np.flatnonzero((ordered < 0).any(axis=1) | (ordered >= count).any(axis=1))
+    if len(outside):
+        c = int(outside[0])
+        raise ValueError(f"pairs[{c}] = {given[c].tolist()}: expected indices of spheres from 0 to {count - 1}")
+    selfish = np.flatnonzero(ordered[:, 0] == ordered[:, 1])
+    if len(selfish):
+        c = int(selfish[0])
+        raise ValueError(f"pairs[{c}] = {given[c].tolist()}: expected two different spheres")
+    unique, first_seen = np.unique(ordered, axis=0, return_index=True)
+    if len(unique) < len(ordered):
+        c = int(np.setdiff1d(np.arange(len(ordered)), first_seen)[0])
+        raise ValueError(f"pairs[{c}] = {given[c].tolist()}: this contact is already in the list; give it once")
+    return ordered
+
+
+def _refuse_parts(spheres: Spheres, pairs: IntArray) -> None:
+    part = connected_parts(len(spheres), pairs)
+    sizes = np.bincount(part)
+    if len(sizes) == 1:
+        return
+    smallest = np.flatnonzero(part == sizes.argmin())
+    i, j, gap = _narrowest_gap(spheres, smallest)
+    listed = ", ".join(map(str, smallest[:8])) + (", …" if len(smallest) > 8 else "")
+    raise GeometryError(
+        f"the aggregate is in {len(sizes)} parts, expected one: sphere{'s' * (len(smallest) > 1)} {listed} "
+        f"({len(smallest)} of {len(spheres)}) touch{'es' * (len(smallest) == 1)} no other part; "
+        f"nearest are spheres {i} and {j} with a gap of {gap:.3g} mean radii; "
+        "raise the contact tolerance above it or remove the loose part"
+    )
+
+
+def _narrowest_gap(spheres: Spheres, part: IntArray) -> tuple[int, int, float]:
+    """The pair (inside `part`, outside it) that is closest, and its gap over the mean radius."""
+    rest = np.setdiff1d(np.arange(len(spheres)), part)
+    centers, radii = spheres.centers, spheres.radii
+    neighbours = min(len(rest), 16)
+    distance, index = cKDTree(centers[rest]).query(centers[part], k=[*range(1, neighbours + 1)])
+    sums = radii[part][:, None] + radii[rest[index]]
+    gaps = 2 * (distance - sums) / sums
+    row, column = np.unravel_index(int(gaps.argmin()), gaps.shape)
+    return int(part[row]), int(rest[index[row, column]]), float(gaps[row, column])

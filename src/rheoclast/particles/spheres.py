@@ -1,0 +1,81 @@
+"""Spheres: centres and radii that do not overlap."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rheoclast import _checks
+from rheoclast._checks import FloatArray
+from rheoclast.errors import GeometryError
+from rheoclast.particles.contacts import CONTACT_TOLERANCE, near_pairs
+
+
+@dataclass(frozen=True, eq=False)
+class Spheres:
+    """Rigid spheres in space. Hydrodynamics sees these and nothing else.
+
+    Parameters
+    ----------
+    centers
+        (N, 3) in m.
+    radii
+        (N,) in m, or one value for all.
+    overlap_tolerance
+        Largest overlap of two spheres, in mean radii of the pair, that counts as touching.
+
+    Raises
+    ------
+    ValueError
+        If a shape is wrong, a number is not finite or a radius not positive.
+    GeometryError
+        If two spheres overlap by more than the tolerance, or one is there twice.
+    """
+
+    centers: FloatArray
+    radii: FloatArray
+    overlap_tolerance: float = CONTACT_TOLERANCE
+
+    def __post_init__(self) -> None:
+        centers = _checks.real_array("centers", self.centers, ("N", 3))
+        if len(centers) == 0:
+            raise ValueError("centers: expected at least one sphere, got none")
+        radii = np.broadcast_to(self.radii, len(centers)) if np.ndim(self.radii) == 0 else self.radii
+        radii = _checks.positive_array("radii", radii, ("N",))
+        if len(radii) != len(centers):
+            raise ValueError(f"radii: expected one per sphere ({len(centers)}) or a single value, got {len(radii)}")
+        object.__setattr__(self, "centers", centers)
+        object.__setattr__(self, "radii", radii)
+        _checks.not_negative("overlap_tolerance", self.overlap_tolerance)
+        _refuse_overlap(centers, radii, self.overlap_tolerance)
+
+    def __len__(self) -> int:
+        return len(self.radii)
+
+    @property
+    def volumes(self) -> FloatArray:
+        """Volume of every sphere, (N,), in m³."""
+        return 4 / 3 * np.pi * self.radii**3
+
+    @property
+    def center_of_mass(self) -> FloatArray:
+        """Centre of mass at uniform density, (3,), in m."""
+        return np.average(self.centers, axis=0, weights=self.volumes)
+
+
+def _refuse_overlap(centers: FloatArray, radii: FloatArray, tolerance: float) -> None:
+    pairs, gaps = near_pairs(centers, radii, 0.0)
+    if not len(gaps) or gaps.min() >= -tolerance:
+        return
+    worst = int(gaps.argmin())
+    i, j = (int(k) for k in pairs[worst])
+    distance, sum_of_radii = float(np.linalg.norm(centers[j] - centers[i])), radii[i] + radii[j]
+    others = int(np.sum(gaps < -tolerance)) - 1
+    more = f" (and {others} more pairs)" if others else ""
+    if distance <= 1e-9 * sum_of_radii:
+        raise GeometryError(f"spheres {i} and {j} are at the same place {centers[i]}{more}; remove the duplicate")
+    raise GeometryError(
+        f"spheres {i} and {j} overlap: distance {distance:.6g} < {sum_of_radii:.6g} = sum of radii{more}; "
+        f"shrink the radii or pass overlap_tolerance (here at least {-gaps[worst]:.2g})"
+    )
