@@ -1,21 +1,68 @@
 """Rheoclast: flow-induced stresses and breakup of rigid colloidal aggregates."""
 
-from rheoclast.errors import FileFormatError, GeometryError, UnitWarning
-from rheoclast.flows import LinearFlow, biaxial_extension, planar_extension, simple_shear, uniaxial_extension
-from rheoclast.loads import SphereLoads
-from rheoclast.particles.aggregate import Aggregate
+# isort: off
 from rheoclast.particles.spheres import Spheres
+from rheoclast.particles.aggregate import Aggregate
+from rheoclast.particles.morphology import coordination_numbers, radius_of_gyration
+
+from rheoclast.flows import LinearFlow, biaxial_extension, planar_extension, simple_shear, uniaxial_extension
+from rheoclast.hydrodynamics.model import HydrodynamicModel
+from rheoclast.hydrodynamics.free_draining import FreeDraining
+from rheoclast.hydrodynamics.stokesian_dynamics import StokesianDynamics
+from rheoclast.hydrodynamics.response import RigidResponse, rigid_response
+from rheoclast.hydrodynamics.motion import RigidMotion, Settling
+from rheoclast.loads import SphereLoads
+
+from rheoclast.mechanics.material import MATERIALS, Material
+from rheoclast.mechanics.bonds import Bonds
+from rheoclast.mechanics.laws.law import ContactLaw
+from rheoclast.mechanics.laws.jkr import JKR, jkr_bonds
+from rheoclast.mechanics.laws.measured_pull_off import MeasuredPullOff
+from rheoclast.mechanics.laws.uniform import Uniform
+from rheoclast.mechanics.contact_loads import ContactLoads, contact_loads
+from rheoclast.mechanics.criteria import load_ratios
+
+from rheoclast.breakup.contact_response import ContactResponse, contact_response
+from rheoclast.breakup.initiation import Initiation, initiation, worst_initiation
+
+from rheoclast.errors import FileFormatError, GeometryError, UnitWarning
+# isort: on
 
 __all__ = [
-    "Aggregate",
-    "FileFormatError",
-    "GeometryError",
-    "LinearFlow",
-    "SphereLoads",
     "Spheres",
-    "UnitWarning",
+    "Aggregate",
+    "coordination_numbers",
+    "radius_of_gyration",
+    "LinearFlow",
     "biaxial_extension",
     "planar_extension",
     "simple_shear",
     "uniaxial_extension",
+    "HydrodynamicModel",
+    "FreeDraining",
+    "StokesianDynamics",
+    "RigidResponse",
+    "rigid_response",
+    "RigidMotion",
+    "Settling",
+    "SphereLoads",
+    "MATERIALS",
+    "Material",
+    "Bonds",
+    "ContactLaw",
+    "JKR",
+    "jkr_bonds",
+    "MeasuredPullOff",
+    "Uniform",
+    "ContactLoads",
+    "contact_loads",
+    "load_ratios",
+    "ContactResponse",
+    "contact_response",
+    "Initiation",
+    "initiation",
+    "worst_initiation",
+    "FileFormatError",
+    "GeometryError",
+    "UnitWarning",
 ]

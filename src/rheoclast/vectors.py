@@ -43,3 +43,15 @@ def strain_tensor(components: FloatArray) -> FloatArray:
 def cross_matrix(vector: FloatArray) -> FloatArray:
     """Matrices (..., 3, 3) with cross_matrix(v) @ w = v × w, from vectors (..., 3)."""
     return np.einsum("ikj,...k->...ij", LEVI_CIVITA, vector)
+
+
+def elementary_velocities(points: FloatArray) -> FloatArray:
+    """Velocities (..., 11, 3) of the eleven elementary flows at points x (..., 3).
+
+    Three unit streams e_k, three unit rotations e_k × x, five unit strains B_k·x. Contracted with a force at x, the
+    same array gives that force, its moment about the origin, and its stresslet components.
+    """
+    streams = np.broadcast_to(np.eye(3), (*points.shape[:-1], 3, 3))
+    rotations = np.einsum("ckj,...j->...kc", LEVI_CIVITA, points)
+    strains = np.einsum("kcj,...j->...kc", STRAIN_BASIS, points)
+    return np.concatenate([streams, rotations, strains], axis=-2)

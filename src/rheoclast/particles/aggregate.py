@@ -121,8 +121,8 @@ def _narrowest_gap(spheres: Spheres, part: IntArray) -> tuple[int, int, float]:
     """The pair (inside `part`, outside it) that is closest, and its gap over the mean radius."""
     rest = np.setdiff1d(np.arange(len(spheres)), part)
     centers, radii = spheres.centers, spheres.radii
-    neighbours = min(len(rest), 16)
-    distance, index = cKDTree(centers[rest]).query(centers[part], k=[*range(1, neighbours + 1)])
+    nearest = np.arange(1, min(len(rest), 16) + 1)
+    distance, index = (np.asarray(found) for found in cKDTree(centers[rest]).query(centers[part], k=nearest))
     sums = radii[part][:, None] + radii[rest[index]]
     gaps = 2 * (distance - sums) / sums
     row, column = np.unravel_index(int(gaps.argmin()), gaps.shape)

@@ -1,0 +1,56 @@
+"""The contact that fails first, and the strength of the flow at which it does."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rheoclast.breakup.contact_response import ContactResponse
+from rheoclast.flows import LinearFlow
+from rheoclast.mechanics.bonds import Bonds
+from rheoclast.mechanics.criteria import CRITERIA, load_ratios
+
+
+@dataclass(frozen=True, eq=False)
+class Initiation:
+    """The first failure in a flow whose rate is raised from zero.
+
+    Attributes
+    ----------
+    contact
+        Index of the contact, or None if no rate breaks any (every contact is compressed).
+    criterion
+        "tension", "shear", "bending" or "twisting"; None with the contact.
+    rate
+        Rate of the flow at which it fails, 1/s, quoted as `LinearFlow.rate`; infinite if none fails.
+    flow
+        The flow in the orientation and at the rate of failure; as given if none fails.
+    """
+
+    contact: int | None
+    criterion: str | None
+    rate: float
+    flow: LinearFlow
+
+
+def initiation(table: ContactResponse, bonds: Bonds, flow: LinearFlow) -> Initiation:
+    """First failure in the given orientation, by all criteria for which the bonds have a strength."""
+    ratios = load_ratios(table.loads(flow), bonds)
+    contact, criterion = np.unravel_index(int(ratios.argmax()), ratios.shape)
+    return _first(int(contact), CRITERIA[criterion], float(ratios.max()), flow)
+
+
+def worst_initiation(table: ContactResponse, bonds: Bonds, flow: LinearFlow) -> Initiation:
+    """First failure in tension over all orientations of the aggregate in the flow, in closed form."""
+    ratios = table.worst_tension(flow) / bonds.strength(len(table.normals))[:, 0]
+    contact = int(ratios.argmax())
+    return _first(contact, "tension", float(ratios[contact]), flow.rotated(table.worst_orientation(flow)[contact]))
+
+
+def _first(contact: int, criterion: str, ratio: float, flow: LinearFlow) -> Initiation:
+    if not ratio > 0:
+        return Initiation(None, None, np.inf, flow)
+    critical = flow.scaled(1 / ratio)
+    assert critical.rate is not None
+    return Initiation(contact, criterion, critical.rate, critical)

@@ -1,0 +1,96 @@
+"""Spring frames: rigid nodes whose joints yield by a normal, a tangential, a bending and a twisting spring."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import bsr_array, csr_array
+from scipy.sparse.linalg import SuperLU, splu
+
+from rheoclast._checks import FloatArray, IntArray
+from rheoclast.frames.equilibrium import equilibrium_matrix
+
+BALANCE_TOLERANCE = 1e-13
+MOST_REFINEMENTS = 12
+
+
+@dataclass(frozen=True, eq=False)
+class SpringFrame:
+    """A factorized frame, ready for any number of load cases. Made by `spring_frame`.
+
+    Attributes
+    ----------
+    equilibrium
+        (6N, 6C) loads of the joints to loads on the nodes.
+    stress
+        (6C, 6N) displacements of the nodes to loads of the joints: −D Tᵀ with the springs' stiffness D.
+    factor
+        Factors of the stiffness with node 0 held.
+    """
+
+    equilibrium: csr_array
+    stress: csr_array
+    factor: SuperLU
+
+    def joint_loads(self, loads: FloatArray) -> FloatArray:
+        """Joint loads (C, 6, K) under balanced loads (N, 6, K).
+
+        The displacements of a slender frame are large and its joint loads small differences of them, so what the first
+        solution leaves unbalanced is solved for again, and only joint loads are added up, until they balance to
+        rounding.
+
+        Raises
+        ------
+        ArithmeticError
+            If balance is not reached because the stiffnesses differ by too many decades.
+        """
+        cases = loads.reshape(-1, loads.shape[-1])
+        size = np.abs(cases).max(axis=0)
+        carried = np.zeros((self.stress.shape[0], cases.shape[1]))
+        unbalanced = cases
+        for _ in range(MOST_REFINEMENTS):
+            carried += self.stress[:, 6:] @ self.factor.solve(unbalanced[6:])
+            unbalanced = cases + self.equilibrium @ carried
+            left, largest = np.abs(unbalanced[6:]).max(axis=0), np.abs(carried).max(axis=0)
+            if (left <= BALANCE_TOLERANCE * np.maximum(largest, size)).all():
+                return carried.reshape(-1, 6, cases.shape[1])
+        raise ArithmeticError(
+            f"the frame of {len(cases) // 6} spheres does not balance: {left.max():.2g} of a largest load "
+            f"{size.max():.2g} is left after {MOST_REFINEMENTS} refinements; "
+            "bring the stiffnesses closer together, or use statics if the contacts form a tree"
+        )
+
+
+def spring_frame(nodes: FloatArray, pairs: IntArray, points: FloatArray, stiffness: FloatArray) -> SpringFrame:
+    """Assemble and factorize a connected frame.
+
+    Parameters
+    ----------
+    nodes, pairs, points
+        (N, 3) places of the nodes, (C, 2) nodes of every joint, (C, 3) points of the joints.
+    stiffness
+        (C, 4) normal, tangential, bending and twisting stiffness, all positive. The normal of a joint points from its
+        first node to its second.
+    """
+    equilibrium = equilibrium_matrix(nodes, pairs, points)
+    difference = nodes[pairs[:, 1]] - nodes[pairs[:, 0]]
+    normals = difference / np.linalg.norm(difference, axis=1, keepdims=True)
+    stress = csr_array(-_joint_stiffness(normals, stiffness) @ equilibrium.T)
+    total = csr_array(-equilibrium @ stress)
+    held = total[6:, 6:].tocsc()
+    # Positive definite: pivots stay on the diagonal, and a symmetric ordering halves the fill.
+    factor = splu(held, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    return SpringFrame(equilibrium, stress, factor)
+
+
+def _joint_stiffness(normals: FloatArray, stiffness: FloatArray) -> bsr_array:
+    """Block-diagonal stiffness (6C, 6C) in fixed axes: along n and across it, for force and for moment."""
+    along = normals[:, :, None] * normals[:, None, :]
+    across = np.eye(3) - along
+    normal, tangential, bending, twisting = stiffness.T[:, :, None, None]
+    blocks = np.zeros((len(normals), 6, 6))
+    blocks[:, :3, :3] = normal * along + tangential * across
+    blocks[:, 3:, 3:] = twisting * along + bending * across
+    count = len(normals)
+    return bsr_array((blocks, np.arange(count), np.arange(count + 1)), shape=(6 * count, 6 * count))

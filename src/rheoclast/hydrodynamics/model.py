@@ -1,0 +1,31 @@
+"""The interface of every hydrodynamic model."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+from rheoclast._checks import FloatArray
+from rheoclast.stokes.mobility import Progress
+
+
+class HydrodynamicModel(ABC):
+    """Gives the loads on every sphere of a rigid aggregate, held fixed in each of the eleven elementary flows."""
+
+    @abstractmethod
+    def elementary_loads(self, centers: FloatArray, radii: FloatArray, progress: Progress | None = None) -> FloatArray:
+        """Force, torque and stresslet of the fluid on every sphere, dimensionless (viscosity one).
+
+        Parameters
+        ----------
+        centers, radii
+            (N, 3) and (N,), in mean radii, relative to the reference point of the aggregate.
+        progress
+            Called with the name of the step and the fraction done.
+
+        Returns
+        -------
+        loads
+            (N, 11, 11). Row: three components of force, three of torque and five of stresslet (on `STRAIN_BASIS`),
+            torque and stresslet about the centre of the sphere. Column: three unit streams, three unit rotations about
+            the reference point and five unit strains in which the aggregate is held at rest.
+        """

@@ -1,0 +1,227 @@
+"""Response of a rigid aggregate to any linear flow: eleven elementary problems, solved once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from rheoclast import _checks
+from rheoclast._checks import FloatArray
+from rheoclast.flows import LinearFlow
+from rheoclast.hydrodynamics.model import HydrodynamicModel
+from rheoclast.hydrodynamics.motion import RigidMotion, Settling
+from rheoclast.loads import SphereLoads
+from rheoclast.particles.spheres import Spheres
+from rheoclast.scales import Scales, warn_of_radii, warn_of_viscosity
+from rheoclast.stokes.mobility import Progress
+from rheoclast.vectors import LEVI_CIVITA, STRAIN_BASIS, cross_matrix, elementary_velocities, strain_components
+
+SINGULAR = 1e-12
+DIMENSIONLESS_VISCOSITY = 1.0
+
+
+def rigid_response(
+    spheres: Spheres, model: HydrodynamicModel, viscosity: float, progress: Progress | None = None
+) -> RigidResponse:
+    """Solve the eleven elementary problems of a rigid aggregate: the expensive step, done once per geometry.
+
+    Parameters
+    ----------
+    spheres
+        The spheres, which move as one rigid body. Contacts play no role.
+    model
+        `StokesianDynamics(order)` or another hydrodynamic model.
+    viscosity
+        Of the liquid, in Pa s. With viscosity 1 the work is taken as dimensionless and large radii give no warning.
+    progress
+        Called as progress(step, fraction) during long solves.
+
+    Raises
+    ------
+    ValueError
+        If the viscosity is not positive.
+    GeometryError
+        If the spheres overlap so much that the problem has no solution.
+
+    Warns
+    -----
+    UnitWarning
+        If radii exceed 1 mm or the viscosity 1000 Pa s.
+    """
+    viscosity = _checks.positive("viscosity", viscosity)
+    if viscosity != DIMENSIONLESS_VISCOSITY:
+        warn_of_radii(spheres.radii)
+        warn_of_viscosity(viscosity)
+    scales = Scales(float(spheres.radii.mean()), viscosity)
+    centers = (spheres.centers - spheres.center_of_mass) / scales.length
+    loads = model.elementary_loads(centers, spheres.radii / scales.length, progress)
+    return RigidResponse(spheres, model, scales, _checks.frozen(loads))
+
+
+@dataclass(frozen=True, eq=False)
+class RigidResponse:
+    """The linear response of one rigid geometry to flows and forces. Made by `rigid_response`.
+
+    Attributes
+    ----------
+    spheres, model
+        What was solved, and how.
+    scales
+        Units of length and viscosity.
+    elementary_loads
+        (N, 11, 11) dimensionless loads on every sphere, see `HydrodynamicModel.elementary_loads`.
+    """
+
+    spheres: Spheres
+    model: HydrodynamicModel
+    scales: Scales
+    elementary_loads: FloatArray
+
+    @property
+    def viscosity(self) -> float:
+        """Viscosity of the liquid in Pa s."""
+        return self.scales.viscosity
+
+    @property
+    def center(self) -> FloatArray:
+        """Centre of mass (3,) in m, the reference point of motion, resistance and mobility."""
+        return self.spheres.center_of_mass
+
+    def motion(self, flow: LinearFlow) -> RigidMotion:
+        """Motion of the freely suspended aggregate: no total force, no total torque."""
+        velocity = flow.velocity(self.center) + np.einsum("ijk,jk->i", self.translation_coupling, flow.strain_rate)
+        angular_velocity = flow.angular_velocity + np.einsum("ijk,jk->i", self.rotation_coupling, flow.strain_rate)
+        return RigidMotion(velocity, angular_velocity, self.center)
+
+    def loads(self, flow: LinearFlow) -> SphereLoads:
+        """Loads of the fluid on every sphere of the freely suspended aggregate. They depend on the strain rate only."""
+        components = strain_components(flow.strain_rate)
+        return SphereLoads(
+            np.tensordot(components, self.strain_loads.force, 1), np.tensordot(components, self.strain_loads.torque, 1)
+        )
+
+    def held(self, flow: LinearFlow) -> SphereLoads:
+        """Loads of the fluid on every sphere of the aggregate held at rest where it is."""
+        stream = flow.velocity(self.center) / self.scales.length
+        ambient = np.concatenate([stream, flow.angular_velocity, strain_components(flow.strain_rate)])
+        return self._dimensional(self.elementary_loads @ ambient)
+
+    def settling(self, force: FloatArray) -> Settling:
+        """Motion under a force (3,) in N that acts at the centre of mass, without torque, in fluid at rest."""
+        force = _checks.real_array("force", force, (3,))
+        motion = self.mobility[:, :3] @ force
+        velocity, angular_velocity = motion[:3], motion[3:]
+        relative = -np.concatenate([velocity / self.scales.length, angular_velocity])
+        loads = self._dimensional(self.elementary_loads[:, :, :6] @ relative)
+        share = self.spheres.volumes / self.spheres.volumes.sum()
+        net_loads = SphereLoads(loads.force + share[:, None] * force, loads.torque)
+        return Settling(velocity, angular_velocity, self.center, loads, net_loads)
+
+    @cached_property
+    def strain_loads(self) -> SphereLoads:
+        """Loads (5, N, 3) on the free aggregate's spheres in unit strain rates `STRAIN_BASIS`, in N s and N m s."""
+        return self._dimensional(self._free_loads.transpose(2, 0, 1))
+
+    @property
+    def table(self) -> FloatArray:
+        """Force and torque on every sphere per strain component, (N, 6, 5), in N s and N m s."""
+        return np.concatenate([self.strain_loads.force, self.strain_loads.torque], axis=-1).transpose(1, 2, 0)
+
+    @cached_property
+    def grand_resistance(self) -> FloatArray:
+        """Force, torque and stresslet on the held aggregate in the elementary flows about `center`, (11, 11), SI.
+
+        Symmetric and positive definite. Velocities in m/s, rotations and strains in 1/s.
+        """
+        return self._total_resistance * np.outer(self._units, self._units) * self.viscosity * self.scales.length
+
+    @property
+    def resistance(self) -> FloatArray:
+        """Resistance (6, 6): force and torque that move the aggregate with unit velocity and angular velocity."""
+        return self.grand_resistance[:6, :6]
+
+    @cached_property
+    def mobility(self) -> FloatArray:
+        """Mobility (6, 6): velocity and angular velocity of `center` per unit force and torque there."""
+        return self._mobility / (np.outer(self._units[:6], self._units[:6]) * self.viscosity * self.scales.length)
+
+    @cached_property
+    def translation_coupling(self) -> FloatArray:
+        """Tensor C (3, 3, 3) in m: velocity of `center` minus that of the flow there = C : E."""
+        return self.scales.length * np.einsum("ik,kab->iab", self._strain_motion[:3], STRAIN_BASIS)
+
+    @cached_property
+    def rotation_coupling(self) -> FloatArray:
+        """Tensor C (3, 3, 3): angular velocity minus that of the fluid = C : E.
+
+        For a body of revolution about p this is Jeffery's B p × (E·p) with Bretherton's constant B.
+        """
+        return np.einsum("ik,kab->iab", self._strain_motion[3:], STRAIN_BASIS)
+
+    @property
+    def center_of_mobility(self) -> FloatArray:
+        """Point (3,) in m where force does not turn the aggregate more one way than the other: M_ωU is symmetric there.
+
+        The mean translational mobility is smallest at this point.
+        """
+        return self.center + self.scales.length * self._offset_to_center_of_mobility
+
+    @property
+    def hydrodynamic_radius(self) -> float:
+        """Radius in m of the sphere with the same mean translational mobility, at the centre of mobility."""
+        offset = cross_matrix(self._offset_to_center_of_mobility)
+        at_center = self._mobility
+        shift = np.hstack([np.eye(3), -offset])
+        translation = shift @ at_center @ shift.T
+        return self.scales.length * 3 / (6 * np.pi * float(np.trace(translation)))
+
+    @property
+    def intrinsic_viscosity(self) -> float:
+        """Intrinsic viscosity per volume of the spheres, free of torque, averaged over orientations; 5/2 for one."""
+        total = self._total_resistance
+        free_stresslet = total[6:, 6:] - total[6:, :6] @ self._strain_motion
+        volume = float(self.spheres.volumes.sum()) / self.scales.length**3
+        return float(np.trace(free_stresslet)) / (10 * volume)
+
+    @cached_property
+    def _total_resistance(self) -> FloatArray:
+        """Total force, torque and stresslet about `center` in the elementary flows, (11, 11)."""
+        centers = (self.spheres.centers - self.center) / self.scales.length
+        total = np.einsum("nkc,ncl->kl", elementary_velocities(centers), self.elementary_loads[:, :3])
+        total[3:] += self.elementary_loads[:, 3:].sum(axis=0)
+        return total
+
+    @cached_property
+    def _mobility(self) -> FloatArray:
+        """Inverse (6, 6) of the resistance; a rotation without resistance is left out (order 1, spheres in line)."""
+        resistance = self._total_resistance[:6, :6]
+        return np.linalg.pinv((resistance + resistance.T) / 2, rcond=SINGULAR, hermitian=True)
+
+    @cached_property
+    def _strain_motion(self) -> FloatArray:
+        """Velocity and angular velocity of the free aggregate relative to the fluid, per strain component, (6, 5)."""
+        return self._mobility @ self._total_resistance[:6, 6:]
+
+    @cached_property
+    def _free_loads(self) -> FloatArray:
+        """Force and torque on every sphere of the free aggregate, per strain component, (N, 6, 5)."""
+        loads = self.elementary_loads[:, :6]
+        return loads[:, :, 6:] - loads[:, :, :6] @ self._strain_motion
+
+    @cached_property
+    def _offset_to_center_of_mobility(self) -> FloatArray:
+        """From `center`, (3,): solves (tr M_ωω 1 − M_ωω)·p = axial vector of the skew part of M_ωU."""
+        turning, mixed = self._mobility[3:, 3:], self._mobility[3:, :3]
+        axial = np.einsum("ijk,jk->i", LEVI_CIVITA, mixed)
+        return np.linalg.pinv(np.trace(turning) * np.eye(3) - turning, rcond=SINGULAR, hermitian=True) @ axial
+
+    @property
+    def _units(self) -> FloatArray:
+        """Length (11,) that each elementary flow's velocity on the aggregate is proportional to."""
+        return np.array([1.0] * 3 + [self.scales.length] * 8)
+
+    def _dimensional(self, loads: FloatArray) -> SphereLoads:
+        """SI loads from dimensionless force and torque (N, 6 or more) or (..., N, 6)."""
+        return SphereLoads(self.scales.force * loads[..., :3], self.scales.torque * loads[..., 3:6])

@@ -1,0 +1,153 @@
+"""The load that every contact carries."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from rheoclast import _checks
+from rheoclast._checks import FloatArray
+from rheoclast.frames.springs import spring_frame
+from rheoclast.frames.statics import tree_loads
+from rheoclast.loads import SphereLoads
+from rheoclast.mechanics.bonds import Bonds
+from rheoclast.particles.aggregate import Aggregate
+
+Method = Literal["auto", "statics", "springs"]
+BALANCE_TOLERANCE = 1e-8
+
+
+@dataclass(frozen=True, eq=False)
+class ContactLoads:
+    """Force and moment in every contact.
+
+    Attributes
+    ----------
+    normals
+        (C, 3) unit vectors from sphere i to sphere j of each contact.
+    force
+        (C, 3), or (..., C, 3) for a batch: what sphere j exerts on sphere i, in N.
+    moment
+        Same shape: the same about the contact point, in N m.
+    """
+
+    normals: FloatArray
+    force: FloatArray
+    moment: FloatArray
+
+    @property
+    def tension(self) -> FloatArray:
+        """Normal force (..., C) in N, positive when the contact is pulled apart."""
+        return np.sum(self.normals * self.force, axis=-1)
+
+    @property
+    def shear(self) -> FloatArray:
+        """Magnitude (..., C) in N of the force across the normal."""
+        return np.linalg.norm(np.cross(self.normals, self.force), axis=-1)
+
+    @property
+    def bending(self) -> FloatArray:
+        """Magnitude (..., C) in N m of the moment across the normal."""
+        return np.linalg.norm(np.cross(self.normals, self.moment), axis=-1)
+
+    @property
+    def twisting(self) -> FloatArray:
+        """Moment (..., C) in N m about the normal, positive when right-handed about n on sphere i."""
+        return np.sum(self.normals * self.moment, axis=-1)
+
+
+def contact_loads(
+    aggregate: Aggregate, loads: SphereLoads, bonds: Bonds | None = None, method: Method = "auto"
+) -> ContactLoads:
+    """Force and moment in every contact of an aggregate under balanced loads.
+
+    Parameters
+    ----------
+    aggregate
+        Spheres and contacts.
+    loads
+        Force and torque on every sphere, (..., N, 3). Their totals must vanish, as for a freely suspended aggregate.
+    bonds
+        Stiffness of the contacts. It decides how loops share the load; a tree does not need it.
+    method
+        "statics" from balance alone (trees), "springs" from the stiffness of the contacts, "auto" chooses statics for
+        a tree.
+
+    Raises
+    ------
+    ValueError
+        If there is no contact, the loads do not match the spheres or do not balance, the bonds do not match the
+        contacts, or loops are to be solved without bonds.
+    """
+    _check(aggregate, loads)
+    length = float(aggregate.spheres.radii.mean())
+    origin = aggregate.spheres.center_of_mass
+    geometry = (
+        (aggregate.spheres.centers - origin) / length,
+        aggregate.pairs,
+        (aggregate.contact_points - origin) / length,
+    )
+    cases, size = _dimensionless_cases(loads, length)
+    if _by_statics(aggregate, bonds, method):
+        carried = tree_loads(*geometry, cases)
+    else:
+        assert bonds is not None
+        stiffness = bonds.stiffness(len(aggregate.pairs)) / [1, 1, length**2, length**2]
+        carried = spring_frame(*geometry, stiffness / stiffness[:, 0].mean()).joint_loads(cases)
+    shape = (*loads.force.shape[:-2], len(aggregate.pairs), 3)
+    force, moment = size * carried[:, :3], size * length * carried[:, 3:]
+    return ContactLoads(
+        aggregate.normals,
+        _checks.frozen(force.transpose(2, 0, 1).reshape(shape)),
+        _checks.frozen(moment.transpose(2, 0, 1).reshape(shape)),
+    )
+
+
+def _dimensionless_cases(loads: SphereLoads, length: float) -> tuple[FloatArray, FloatArray]:
+    """Load cases (N, 6, K) in units of each case's largest load, and that size (K,) in N."""
+    cases = np.concatenate([loads.force, loads.torque / length], axis=-1)
+    cases = cases.reshape(-1, *cases.shape[-2:]).transpose(1, 2, 0)
+    size = np.abs(cases).max(axis=(0, 1))
+    size[size == 0] = 1.0
+    return cases / size, size
+
+
+def _by_statics(aggregate: Aggregate, bonds: Bonds | None, method: Method) -> bool:
+    if method not in ("auto", "statics", "springs"):
+        raise ValueError(f"method: expected 'auto', 'statics' or 'springs', got {method!r}")
+    degree = aggregate.hyperstaticity
+    if method == "statics" and degree:
+        raise ValueError(
+            f"method='statics' needs a tree, but the contacts close loops (hyperstaticity {degree}); use 'springs'"
+        )
+    if method != "statics" and bonds is None and (degree or method == "springs"):
+        raise ValueError(
+            f"bonds: needed to share the load among loops (hyperstaticity {degree}), got none; "
+            "give for instance jkr_bonds(aggregate, material)"
+        )
+    return method == "statics" or (method == "auto" and degree == 0)
+
+
+def _check(aggregate: Aggregate, loads: SphereLoads) -> None:
+    if len(aggregate.pairs) == 0:
+        raise ValueError("the aggregate is a single sphere and has no contact; expected at least two touching spheres")
+    if loads.force.shape[-2] != len(aggregate):
+        raise ValueError(f"loads: expected one per sphere ({len(aggregate)}), got {loads.force.shape[-2]}")
+    arms = aggregate.spheres.centers - aggregate.spheres.center_of_mass
+    extent = np.linalg.norm(arms, axis=1).max()
+    force_size = np.linalg.norm(loads.force, axis=-1)
+    torque_size = np.linalg.norm(loads.torque, axis=-1) + extent * force_size
+    for name, each, sizes in (
+        ("force", loads.force, force_size),
+        ("torque", np.cross(arms, loads.force) + loads.torque, torque_size),
+    ):
+        total, gross = np.linalg.norm(each.sum(axis=-2), axis=-1), sizes.sum(axis=-1)
+        if (total > BALANCE_TOLERANCE * gross).any():
+            worst = int(np.argmax(total / np.where(gross > 0, gross, 1)))
+            raise ValueError(
+                f"loads: expected a total {name} of zero, got {total.flat[worst]:.3g} against {gross.flat[worst]:.3g} "
+                "in all; use the loads of the freely suspended aggregate, response.loads(flow) or "
+                "settling(force).net_loads"
+            )

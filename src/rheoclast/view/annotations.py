@@ -1,0 +1,143 @@
+"""What stands beside the spheres: scale bar, colour bar, axes, flow, and the mark on a critical contact."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from rheoclast._checks import FloatArray
+from rheoclast.view.colours import ColourScale
+from rheoclast.view.projection import principal_axes
+from rheoclast.view.quantities import minus, prefixed, quoted, round_down
+from rheoclast.view.rendering import Rendering
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+INK, FAINT_INK = "#24282d", "#6d737a"
+SMALL, TINY = 9, 8  # points
+EXTENDED, SHORTENED = "#c9370f", "#1c5fb4"
+Box = tuple[float, float, float, float]
+
+
+def draw_scale_bar(figure: Figure, box: Box, pixels_per_length: float, length_unit: str | None) -> None:
+    """Bar of a round length, at most as long as the box (left, bottom, width, height as shares of the figure)."""
+    available = box[2] * figure.get_figwidth() * figure.dpi
+    length = round_down(available / pixels_per_length)
+    share = length * pixels_per_length / available
+    axes = _bare_axes(figure, box)
+    axes.set(xlim=(0, 1), ylim=(0, 1))
+    axes.plot([0, share], [0.66, 0.66], color=INK, linewidth=2.5, solid_capstyle="butt", clip_on=False)
+    axes.text(share / 2, 0.5, quoted(length, length_unit), ha="center", va="top", size=SMALL, color=INK)
+
+
+def draw_colour_bar(figure: Figure, box: Box, scale: ColourScale, quantity: str, unit: str | None) -> None:
+    """Horizontal colour bar with its quantity and unit; pointed where values exceed its limits."""
+    from matplotlib.cm import ScalarMappable
+
+    divisor, shown_unit = prefixed(scale.limit, unit)
+    axes = figure.add_axes(box)
+    bar = figure.colorbar(
+        ScalarMappable(scale.norm, scale.map), cax=axes, orientation="horizontal", extend=scale.extend, extendfrac=0.05
+    )
+    ticks = scale.limit * np.linspace(-1, 1, 5)
+    bar.set_ticks(list(ticks), labels=[minus(f"{tick / divisor:g}") for tick in ticks])
+    bar.outline.set(edgecolor=FAINT_INK, linewidth=0.6)  # type: ignore[operator]
+    axes.tick_params(labelsize=TINY, length=2.5, width=0.6, color=FAINT_INK, labelcolor=INK, pad=2)
+    label = f"{quantity} ({shown_unit})" if shown_unit else quantity
+    axes.set_title(label, size=SMALL, color=INK, pad=4)
+
+
+def draw_triad(figure: Figure, box: Box, view: FloatArray) -> None:
+    """Projected axes of coordinates x, y, z, seen along the third row of `view` (3, 3)."""
+    axes = _bare_axes(figure, box)
+    axes.set(xlim=(-1.35, 1.35), ylim=(-1.35, 1.35))
+    for name, tip in sorted(zip("xyz", view[:2].T, strict=True), key=lambda item: view[2, "xyz".index(item[0])]):
+        length = float(np.hypot(*tip))
+        if length < 0.12:
+            _draw_end_on(axes, towards=view[2, "xyz".index(name)] > 0)
+            axes.text(-0.22, -0.2, name, ha="center", va="center", size=TINY, color=FAINT_INK)
+            continue
+        _arrow(axes, np.zeros(2), 0.85 * tip, FAINT_INK)
+        axes.text(*(0.85 * tip + 0.3 * tip / length), name, ha="center", va="center", size=TINY, color=FAINT_INK)
+
+
+def draw_flow(figure: Figure, box: Box, view: FloatArray, strain_rate: FloatArray) -> None:
+    """Principal strain rates as pairs of arrows: outwards where lines of fluid lengthen, inwards where they shorten."""
+    axes = _bare_axes(figure, box)
+    axes.set(xlim=(-1.2, 1.2), ylim=(-1.2, 1.2))
+    axes.set_title("flow", size=TINY, color=FAINT_INK, pad=0)
+    rates, directions = principal_axes(view @ strain_rate @ view.T)
+    largest = float(np.abs(rates).max()) or 1.0
+    for rate, direction in zip(rates / largest, directions, strict=True):
+        reach = 0.3 + 0.75 * abs(rate)
+        inner, outer = 0.25 * direction[:2], reach * direction[:2]
+        if np.hypot(*(outer - inner)) < 0.12:
+            continue
+        start, end, colour = (inner, outer, EXTENDED) if rate > 0 else (outer, inner, SHORTENED)
+        for side in (1, -1):
+            _arrow(axes, side * start, side * end, colour)
+
+
+def mark_contact(
+    axes: Axes, rendering: Rendering, point: FloatArray, radius: float, contact: int, text: str
+) -> None:
+    """Ring of a radius around a contact point (in pixels) and a leader to a label where the picture is emptiest near by.
+
+    The ring is dashed where the contact is hidden behind spheres.
+    """
+    from matplotlib.patches import Circle
+
+    visible = bool((rendering.contact == contact).any())
+    style = "solid" if visible else (0, (2.2, 1.6))
+    pixel = axes.figure.dpi / 72
+    radius = max(radius, 8 * pixel)
+    for colour, width in (("white", 3.4), (INK, 1.5)):
+        axes.add_patch(Circle((point[0], point[1]), radius, fill=False, color=colour, linewidth=width, linestyle=style))
+    label = axes.text(0, 0, text if visible else f"{text} (hidden)", size=SMALL, color=INK, ha="center", va="center")
+    extent = label.get_window_extent()
+    half = np.array([extent.width, extent.height]) / 2 + 5 * pixel
+    place = _free_place(rendering.image[..., 3], point[:2], half, radius + 8 * pixel)
+    label.set_position((float(place[0]), float(place[1])))
+    label.set_bbox({"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.5})
+    half -= 3 * pixel
+    nearest = np.clip(point[:2], place - half, place + half)
+    leave = point[:2] + radius * (nearest - point[:2]) / np.linalg.norm(nearest - point[:2])
+    for colour, width in (("white", 2.6), (INK, 1.0)):
+        axes.plot(*np.stack([leave, nearest], axis=1), color=colour, linewidth=width, solid_capstyle="round")
+
+
+def _free_place(opacity: np.ndarray, point: FloatArray, half: FloatArray, clearance: float) -> FloatArray:
+    """Middle of a box of half size `half`, inside the image, that covers least of it and is near the point."""
+    height, width = opacity.shape
+    total = np.pad(opacity.astype(np.float64).cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))
+    x = np.arange(half[0] + 2, max(width - half[0] - 2, half[0] + 3), 4)
+    y = np.arange(half[1] + 2, max(height - half[1] - 2, half[1] + 3), 4)
+    left, right = ((x + side * half[0]).astype(int).clip(0, width) for side in (-1, 1))
+    low, high = ((y + side * half[1]).astype(int).clip(0, height)[:, None] for side in (-1, 1))
+    covered = (total[high, right] - total[low, right] - total[high, left] + total[low, left]) / (4 * half.prod())
+    gap = np.hypot(
+        np.maximum(np.abs(x - point[0]) - half[0], 0), np.maximum(np.abs(y - point[1]) - half[1], 0)[:, None]
+    )
+    cost = covered + gap / max(width, height) + np.where(gap < clearance, 10.0, 0.0)
+    row, column = np.unravel_index(int(cost.argmin()), cost.shape)
+    return np.array([x[column], y[row]])
+
+
+def _bare_axes(figure: Figure, box: Box) -> Axes:
+    axes = figure.add_axes(box)
+    axes.set_axis_off()
+    return axes
+
+
+def _arrow(axes: Axes, start: FloatArray, end: FloatArray, colour: str) -> None:
+    style = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.3, "mutation_scale": 8, "shrinkA": 0, "shrinkB": 0}
+    axes.annotate("", tuple(end), tuple(start), arrowprops=style, annotation_clip=False)
+
+
+def _draw_end_on(axes: Axes, towards: bool) -> None:
+    """The sign of an arrow towards the viewer, a point in a circle, or away from the viewer, a cross in it."""
+    axes.plot(0, 0, "o", markersize=6, markerfacecolor="white", color=FAINT_INK, markeredgewidth=1)
+    axes.plot(0, 0, "." if towards else "x", markersize=3, color=FAINT_INK)

@@ -1,0 +1,214 @@
+"""Spheres as an image: a z-buffer, soft light and ambient occlusion in NumPy, arrays in, arrays out.
+
+Orthographic projection. All lengths are in pixels: x to the right and y upwards from the lower left corner of the
+image, z towards the viewer. Row 0 of every image is its bottom row.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from rheoclast._checks import FloatArray, IntArray
+
+SPHERE_COLOUR = (0.87, 0.88, 0.89)
+RIM_COLOUR = (0.23, 0.25, 0.28)
+LIGHT = np.array([-0.48, 0.58, 0.66]) / np.linalg.norm([-0.48, 0.58, 0.66])
+AMBIENT, DIFFUSE = 0.36, 0.74
+PAINT_GLOW = 0.8  # share of the shadow that vivid paint is spared, so that it can be read off the colour bar
+FADE = 0.4  # share of a collar's reach over which its paint fades
+OCCLUDERS = 24  # neighbours that may shade a sphere
+BAND = 64  # rows shaded at a time, which bounds the memory
+NOTHING = -1
+
+Image = NDArray[np.float32]
+
+
+@dataclass(frozen=True, eq=False)
+class Rendering:
+    """Image of spheres.
+
+    Attributes
+    ----------
+    image
+        (H, W, 4) red, green, blue and opacity from 0 to 1; the background is transparent.
+    owner
+        (H, W) index of the sphere seen at each pixel's middle, −1 where there is none.
+    contact
+        (H, W) index of the contact whose collar is seen there, −1 where there is none.
+    """
+
+    image: Image
+    owner: NDArray[np.int32]
+    contact: NDArray[np.int32]
+
+
+@dataclass(frozen=True, eq=False)
+class Collars:
+    """Patches painted around the C contact points, on both spheres of each contact.
+
+    Attributes
+    ----------
+    pairs
+        (C, 2) indices of the two spheres.
+    points
+        (C, 3) contact points in pixels.
+    reaches
+        (C,) largest distance of painted surface points from the contact point, in pixels.
+    colours
+        (C, 3) red, green, blue.
+    """
+
+    pairs: IntArray
+    points: FloatArray
+    reaches: FloatArray
+    colours: FloatArray
+
+
+def render(
+    centers: FloatArray, radii: FloatArray, collars: Collars, width: int, height: int, samples: int = 3
+) -> Rendering:
+    """Image of spheres (N, 3), (N,) with painted contacts, `samples`² points per pixel."""
+    centers, radii = samples * centers, samples * radii
+    depth, owner = visible_surface(centers, radii, height * samples, width * samples)
+    colour, contact = _painted(depth, owner, collars, samples)
+    openness = _openness(centers, radii, depth, owner, samples)
+    for top in range(0, len(depth), BAND * samples):
+        band = slice(top, top + BAND * samples)
+        _shade(colour[band], centers, radii, depth[band], owner[band], openness[band], top, samples)
+    middle = np.s_[samples // 2 :: samples, samples // 2 :: samples]
+    return Rendering(_averaged(colour, owner != NOTHING, samples), owner[middle].copy(), contact[middle].copy())
+
+
+def visible_surface(centers: FloatArray, radii: FloatArray, height: int, width: int) -> tuple[Image, NDArray[np.int32]]:
+    """Height z of the nearest surface (−∞ where none) and the sphere it belongs to (−1 where none), both (H, W)."""
+    depth = np.full((height, width), -np.inf, dtype=np.float32)
+    owner = np.full((height, width), NOTHING, dtype=np.int32)
+    for i, (center, radius) in enumerate(zip(centers, radii, strict=True)):
+        window, across, along = _window(center, radius, depth.shape)
+        above = radius**2 - across**2 - along**2
+        surface = center[2] + np.sqrt(np.maximum(above, 0))
+        nearer = (above > 0) & (surface > depth[window])
+        depth[window][nearer] = surface[nearer]
+        owner[window][nearer] = i
+    return depth, owner
+
+
+def _window(center: FloatArray, reach: float, shape: Sequence[int]) -> tuple[tuple[slice, slice], Image, Image]:
+    """Part of the image within `reach` of a point, and the offsets x (1, w) and y (h, 1) of its pixel middles."""
+    low = np.clip(np.floor(center[:2] - reach), 0, shape[::-1]).astype(int)
+    high = np.clip(np.ceil(center[:2] + reach), low, shape[::-1]).astype(int)
+    across = (np.arange(low[0], high[0]) + 0.5 - center[0]).astype(np.float32)
+    along = (np.arange(low[1], high[1]) + 0.5 - center[1]).astype(np.float32)
+    return (slice(low[1], high[1]), slice(low[0], high[0])), across[None, :], along[:, None]
+
+
+def _painted(
+    depth: Image, owner: NDArray[np.int32], collars: Collars, samples: int
+) -> tuple[Image, NDArray[np.int32]]:
+    """Colour (H, W, 3) of the visible surface before light falls on it, and the nearest contact painted there.
+
+    The paint is full near the contact point and fades out towards `reaches`; where collars meet, they add.
+    """
+    colour = np.zeros((*depth.shape, 3), dtype=np.float32)
+    colour[owner != NOTHING] = SPHERE_COLOUR
+    contact = np.full(depth.shape, NOTHING, dtype=np.int32)
+    nearest = np.full(depth.shape, np.inf, dtype=np.float32)
+    reaches, tints = samples * collars.reaches, (collars.colours - SPHERE_COLOUR).astype(np.float32)
+    for c, (point, reach) in enumerate(zip(samples * collars.points, reaches, strict=True)):
+        window, across, along = _window(point, reach, depth.shape)
+        ours = (owner[window] == collars.pairs[c, 0]) | (owner[window] == collars.pairs[c, 1])
+        ours[ours] = ((across**2 + along**2 + (depth[window] - point[2]) ** 2)[ours]) < reach**2
+        distance = np.sqrt((across**2 + along**2)[ours] + (depth[window][ours] - np.float32(point[2])) ** 2)
+        share = np.clip((1 - distance / np.float32(reach)) / np.float32(FADE), 0, 1)
+        colour[window][ours] += (share * share * (3 - 2 * share))[:, None] * tints[c]
+        first = distance < nearest[window][ours]
+        ours[ours] = first
+        contact[window][ours] = c
+        nearest[window][ours] = distance[first]
+    return colour, contact
+
+
+def _shade(
+    colour: Image,
+    centers: FloatArray,
+    radii: FloatArray,
+    depth: Image,
+    owner: NDArray[np.int32],
+    openness: Image,
+    first_row: int,
+    samples: int,
+) -> None:
+    """Light the covered points of a band of the image, whose lowest row is `first_row`."""
+    row, column = np.nonzero(owner != NOTHING)
+    sphere, height = owner[row, column], depth[row, column]
+    radius = radii.astype(np.float32)[sphere]
+    normal = np.stack([column + 0.5, row + (first_row + 0.5), height], axis=1).astype(np.float32)
+    normal = (normal - centers.astype(np.float32)[sphere]) / radius[:, None]
+    paint = np.clip(colour[row, column], 0, 1)
+    light = 0.5 + 0.5 * (normal @ LIGHT.astype(np.float32))
+    brightness = openness[row, column] * (AMBIENT + DIFFUSE * light)
+    brightness += PAINT_GLOW * np.ptp(paint, axis=1) * (1 - brightness)
+    paint *= brightness[:, None]
+    _draw_rims(paint, normal, radius, samples)
+    _fade_with_distance(paint, height, centers[:, 2], radii)
+    colour[row, column] = np.clip(paint, 0, 1)
+
+
+def _openness(centers: FloatArray, radii: FloatArray, depth: Image, owner: NDArray[np.int32], samples: int) -> Image:
+    """Share (H, W) of the sky over a surface point that neighbouring spheres leave open, one value per pixel block.
+
+    A sphere of radius r at v from the point, n·v > 0, hides (n·v)/|v| (r/|v|)² of the cosine-weighted sky.
+    """
+    half = samples // 2
+    coarse_owner, coarse_depth = owner[half::samples, half::samples], depth[half::samples, half::samples]
+    openness = np.ones(coarse_owner.shape, dtype=np.float32)
+    count = min(OCCLUDERS, len(radii) - 1)
+    if count:
+        neighbours = cKDTree(centers).query(centers, k=[*range(2, count + 2)])[1]
+        for i, (center, radius) in enumerate(zip(centers, radii, strict=True)):
+            window, across, along = _window(center / samples, radius / samples, openness.shape)
+            mine = coarse_owner[window] == i
+            offset = np.stack(np.broadcast_arrays(across * samples, along * samples, 0 * across), axis=-1)[mine]
+            offset[:, 2] = coarse_depth[window][mine] - center[2]
+            others = neighbours[i]
+            openness[window][mine] = _open_sky(offset, radius, centers[others] - center, radii[others])
+    return openness.repeat(samples, axis=0).repeat(samples, axis=1)
+
+
+def _open_sky(offset: Image, radius: float, others: FloatArray, other_radii: FloatArray) -> Image:
+    """Open share (P,) of the sky over surface points (P, 3) of a sphere, between spheres (J, 3), from its centre."""
+    along_normal = (offset / np.float32(radius)) @ others.T.astype(np.float32)
+    distance2 = np.sum(others**2, axis=1).astype(np.float32) + np.float32(radius**2) - 2 * radius * along_normal
+    rise = np.maximum(along_normal - np.float32(radius), 0)
+    hidden = rise * other_radii.astype(np.float32) ** 2 / np.maximum(distance2, 1e-12) ** 1.5
+    return np.prod(1 - 0.8 * np.minimum(hidden, 1), axis=1)
+
+
+def _draw_rims(colour: Image, normal: Image, radius: Image, samples: int) -> None:
+    """Darken the limb of every sphere, a line about one pixel wide."""
+    inside = radius * (1 - np.hypot(normal[:, 0], normal[:, 1]))
+    width = np.minimum(1.1 * samples, 0.14 * radius)
+    strength = 0.85 * np.clip(1.5 - inside / width, 0, 1)[:, None]
+    colour += strength * (np.asarray(RIM_COLOUR, dtype=np.float32) - colour)
+
+
+def _fade_with_distance(colour: Image, depth: Image, heights: FloatArray, radii: FloatArray) -> None:
+    """Mix what lies far behind with white, little where the whole is only a few spheres deep."""
+    nearest, span = float((heights + radii).max()), float(np.ptp(heights))
+    strength = 0.45 * span / (span + 12 * float(radii.mean()))
+    share = strength * np.clip((nearest - depth) / max(span, 1e-12), 0, 1)
+    colour += share[:, None] * (1 - colour)
+
+
+def _averaged(colour: Image, covered: NDArray[np.bool_], samples: int) -> Image:
+    """Image (H, W, 4) from `samples`² points per pixel."""
+    height, width = (length // samples for length in covered.shape)
+    blocks = (height, samples, width, samples)
+    opacity = covered.reshape(blocks).mean(axis=(1, 3), dtype=np.float32)
+    total = colour.reshape(*blocks, 3).mean(axis=(1, 3), dtype=np.float32)
+    return np.dstack([total / np.maximum(opacity, 1e-6)[..., None], opacity])
