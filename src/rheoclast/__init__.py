@@ -1,5 +1,7 @@
 """Rheoclast: flow-induced stresses and breakup of rigid colloidal aggregates."""
 
+__version__ = "0.1.0"
+
 # isort: off
 from rheoclast.particles.spheres import Spheres
 from rheoclast.particles.aggregate import Aggregate

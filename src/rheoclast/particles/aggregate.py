@@ -51,6 +51,10 @@ class Aggregate:
         """Number of spheres, N."""
         return len(self.spheres)
 
+    def scaled(self, factor: float) -> Aggregate:
+        """The same aggregate with all lengths times a positive factor."""
+        return Aggregate(self.spheres.scaled(factor), self.pairs)
+
     @property
     def normals(self) -> FloatArray:
         """Unit vectors (C, 3) from sphere i to sphere j of every contact."""

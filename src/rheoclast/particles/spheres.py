@@ -53,6 +53,11 @@ class Spheres:
     def __len__(self) -> int:
         return len(self.radii)
 
+    def scaled(self, factor: float) -> Spheres:
+        """The same spheres with all lengths times a positive factor."""
+        factor = _checks.positive("factor", factor)
+        return Spheres(factor * self.centers, factor * self.radii, self.overlap_tolerance)
+
     @property
     def volumes(self) -> FloatArray:
         """Volume of every sphere, (N,), in m³."""

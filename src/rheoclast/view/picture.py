@@ -13,7 +13,7 @@ from rheoclast import _checks
 from rheoclast._checks import FloatArray
 from rheoclast.flows import LinearFlow
 from rheoclast.particles.aggregate import Aggregate
-from rheoclast.view import annotations
+from rheoclast.view import labels
 from rheoclast.view.colours import ColourScale
 from rheoclast.view.projection import view_axes
 from rheoclast.view.quantities import quoted
@@ -23,39 +23,56 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-DOTS_PER_INCH = 160
-SMALLEST_SIZE = (4.0, 2.5)  # inches
+SMALLEST_SIZE = (4.5, 2.5)  # inches
 LARGEST_RADIUS = 0.8  # inches
 MARGIN, FOOTER, HEADER, LABEL_ROOM = 0.18, 0.95, 0.34, 0.3  # inches
+FOOTER_SQUARE = 0.7  # inches
 COLLAR_REACH = 0.9  # of the smaller radius
 RING_RADIUS = 0.55  # of the smaller radius
-INK = annotations.INK
+INK = labels.INK
 
 
 @dataclass(frozen=True)
 class _Layout:
-    """Inches of the figure and pixels per metre of the picture between its header and its footer."""
+    """Inches of the figure and of its parts, whole pixels each, and the scale of the picture amid them."""
 
     width: float
-    height: float
     header: float
-    scale: float
+    picture: float
+    footer: float
+    inches_per_metre: float
+    dots_per_inch: float
+
+    @property
+    def height(self) -> float:
+        """Height of the figure."""
+        return self.header + self.picture + self.footer
+
+    @property
+    def scale(self) -> float:
+        """Pixels per metre."""
+        return self.inches_per_metre * self.dots_per_inch
 
     @property
     def pixels(self) -> tuple[int, int]:
         """Width and height of the picture."""
-        height = self.height - FOOTER - self.header
-        return round(self.width * DOTS_PER_INCH), round(height * DOTS_PER_INCH)
+        return round(self.width * self.dots_per_inch), round(self.picture * self.dots_per_inch)
 
-    def footer_box(self, left: float, width: float, bottom: float, height: float) -> annotations.Box:
+    def footer_box(self, left: float, width: float, bottom: float, height: float) -> labels.Box:
         """Box as shares of the figure, from shares of its width and inches above its lower edge."""
         return left, bottom / self.height, width, height / self.height
 
-    def footer_square(self, column: int) -> annotations.Box:
+    @property
+    def colour_bar_box(self) -> labels.Box:
+        """Between the scale bar and the two footer squares."""
+        left = 0.31
+        width = min(0.39, 1 - left - (MARGIN + 2 * FOOTER_SQUARE + 0.3) / self.width)
+        return self.footer_box(left, width, 0.38, 0.13)
+
+    def footer_square(self, column: int) -> labels.Box:
         """Square place in the footer, counted from the right."""
-        side = FOOTER - 0.25
-        left = 1 - (MARGIN + (column + 1) * side + 0.1 * column) / self.width
-        return self.footer_box(left, side / self.width, 0.12, side)
+        left = 1 - (MARGIN + (column + 1) * FOOTER_SQUARE + 0.1 * column) / self.width
+        return self.footer_box(left, FOOTER_SQUARE / self.width, 0.12, FOOTER_SQUARE)
 
 
 def draw(
@@ -70,6 +87,7 @@ def draw(
     size: tuple[float, float] = (6.4, 5.6),
     length_unit: str | None = "m",
     title: str | None = None,
+    dots_per_inch: float = 160.0,
 ) -> Figure:
     """Picture of an aggregate: spheres in true size, each contact coloured by its value.
 
@@ -95,6 +113,8 @@ def draw(
         Unit of the coordinates for the scale bar, which shows a decimal prefix; None when they are dimensionless.
     title
         Text above the picture.
+    dots_per_inch
+        Resolution; 300 suits print.
 
     Returns
     -------
@@ -113,26 +133,27 @@ def draw(
     if critical is not None:
         critical = _contact_index(critical, len(aggregate.pairs))
     _refuse_small(size)
+    dots_per_inch = _checks.positive("dots_per_inch", dots_per_inch)
     axes = view_axes(aggregate.spheres, view_direction)
-    layout = _layout(aggregate, axes, size, critical is not None, title is not None)
+    layout = _layout(aggregate, axes, size, dots_per_inch, critical is not None, title is not None)
     shown = np.zeros(len(aggregate.pairs)) if values is None else values
     scale = ColourScale(shown)
     rendering, points = _rendered(aggregate, axes, layout, scale(shown))
 
-    figure = Figure(figsize=(layout.width, layout.height), dpi=DOTS_PER_INCH, facecolor="white")
+    figure = Figure(figsize=(layout.width, layout.height), dpi=layout.dots_per_inch, facecolor="white")
     picture = _picture_axes(figure, layout, rendering)
     if title is not None:
         figure.text(0.5, 1 - 0.6 * HEADER / layout.height, title, ha="center", va="center", size=11, color=INK)
-    annotations.draw_scale_bar(figure, layout.footer_box(0.03, 0.22, 0.3, 0.4), layout.scale, length_unit)
+    labels.draw_scale_bar(figure, layout.footer_box(0.03, 0.22, 0.3, 0.4), layout.scale, length_unit)
     if values is not None:
-        annotations.draw_colour_bar(figure, layout.footer_box(0.31, 0.38, 0.38, 0.13), scale, quantity, unit)
-    annotations.draw_triad(figure, layout.footer_square(1), axes)
+        labels.draw_colour_bar(figure, layout.colour_bar_box, scale, quantity, unit)
+    labels.draw_triad(figure, layout.footer_square(0 if flow is None else 1), axes)
     if flow is not None:
-        annotations.draw_flow(figure, layout.footer_square(0), axes, flow.strain_rate)
+        labels.draw_flow(figure, layout.footer_square(0), axes, flow.strain_rate)
     if critical is not None:
         text = "critical contact" if values is None else f"critical contact: {quoted(values[critical], unit)}"
         ring = RING_RADIUS * layout.scale * float(aggregate.spheres.radii[aggregate.pairs[critical]].min())
-        annotations.mark_contact(picture, rendering, points[critical], ring, critical, text)
+        labels.mark_contact(picture, rendering, points[critical], ring, critical, text)
     return figure
 
 
@@ -162,15 +183,24 @@ def _refuse_small(size: tuple[float, float]) -> None:
         raise ValueError(f"size: expected at least {smallest} inches, got {width:g} by {height:g}")
 
 
-def _layout(aggregate: Aggregate, axes: FloatArray, size: tuple[float, float], marked: bool, titled: bool) -> _Layout:
+def _layout(
+    aggregate: Aggregate,
+    axes: FloatArray,
+    size: tuple[float, float],
+    dots_per_inch: float,
+    marked: bool,
+    titled: bool,
+) -> _Layout:
     """Sizes with which the aggregate fills the figure, its spheres not larger than `LARGEST_RADIUS`."""
     low, high = _extent(aggregate, axes)
     header = HEADER if titled else 0.0
     room = 2 * MARGIN + (LABEL_ROOM if marked else 0.0)
-    free = np.array([size[0] - 2 * MARGIN, size[1] - FOOTER - header - room])
+    free = np.array([size[0] - 2 * MARGIN, size[1] - header - FOOTER - room])
     inches_per_metre = min(float((free / (high - low)).min()), LARGEST_RADIUS / float(aggregate.spheres.radii.max()))
-    height = inches_per_metre * (high[1] - low[1]) + FOOTER + header + room
-    return _Layout(size[0], height, header, inches_per_metre * DOTS_PER_INCH)
+    lengths = (size[0], header, inches_per_metre * float(high[1] - low[1]) + room, FOOTER)
+    return _Layout(
+        *(round(length * dots_per_inch) / dots_per_inch for length in lengths), inches_per_metre, dots_per_inch
+    )
 
 
 def _extent(aggregate: Aggregate, axes: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -184,9 +214,9 @@ def _rendered(
 ) -> tuple[Rendering, FloatArray]:
     """The image, and the contact points (C, 3) in its pixels."""
     low, high = _extent(aggregate, axes)
-    lower_middle = np.array([(low[0] + high[0]) / 2, low[1], 0.0])
+    lower_middle = np.array([(low[0] + high[0]) / 2, low[1], float(axes[2] @ aggregate.spheres.center_of_mass)])
     width, height = layout.pixels
-    shift = np.array([width / 2, MARGIN * DOTS_PER_INCH, 0.0])
+    shift = np.array([width / 2, MARGIN * layout.dots_per_inch, 0.0])
     centers = (aggregate.spheres.centers @ axes.T - lower_middle) * layout.scale + shift
     points = (aggregate.contact_points @ axes.T - lower_middle) * layout.scale + shift
     radii = aggregate.spheres.radii * layout.scale
@@ -197,8 +227,7 @@ def _rendered(
 def _picture_axes(figure: Figure, layout: _Layout, rendering: Rendering) -> Axes:
     """Axes in pixels that show the image one to one."""
     width, height = layout.pixels
-    bottom = FOOTER / layout.height
-    axes = figure.add_axes((0, bottom, 1, 1 - bottom - layout.header / layout.height))
+    axes = figure.add_axes((0, layout.footer / layout.height, 1, layout.picture / layout.height))
     axes.imshow(
         rendering.image, origin="lower", extent=(0, width, 0, height), aspect="auto", interpolation="antialiased"
     )

@@ -36,8 +36,8 @@ def principal_axes(tensor: FloatArray) -> tuple[FloatArray, FloatArray]:
     Where eigenvalues coincide, the eigenvectors keep to the axes of coordinates in their order.
     """
     size = float(np.abs(tensor).max()) or 1.0
-    values, vectors = np.linalg.eigh(tensor + 1e-6 * size * np.diag([2.0, 1.0, 0.0]))
-    return values[::-1], vectors.T[::-1]
+    vectors = np.linalg.eigh(tensor + 1e-6 * size * np.diag([2.0, 1.0, 0.0]))[1].T[::-1]
+    return np.einsum("ki,ij,kj->k", vectors, tensor, vectors), vectors
 
 
 def _broadest_view(spheres: Spheres) -> FloatArray:

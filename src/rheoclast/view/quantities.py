@@ -26,8 +26,9 @@ def prefixed(size: float, unit: str | None) -> tuple[float, str]:
 
 def quoted(value: float, unit: str | None) -> str:
     """A value with three digits and its unit, such as "12.3 nN"."""
-    divisor, text = prefixed(abs(value), unit)
-    return minus(f"{value / divisor:.3g} {text}".rstrip())
+    rounded = float(f"{value:.3g}")
+    divisor, text = prefixed(abs(rounded), unit)
+    return minus(f"{rounded / divisor:g} {text}".rstrip())
 
 
 def minus(text: str) -> str:

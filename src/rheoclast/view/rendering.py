@@ -15,12 +15,13 @@ from scipy.spatial import cKDTree
 
 from rheoclast._checks import FloatArray, IntArray
 
-SPHERE_COLOUR = (0.87, 0.88, 0.89)
+SPHERE_COLOUR = (0.88, 0.89, 0.9)
 RIM_COLOUR = (0.23, 0.25, 0.28)
 LIGHT = np.array([-0.48, 0.58, 0.66]) / np.linalg.norm([-0.48, 0.58, 0.66])
-AMBIENT, DIFFUSE = 0.36, 0.74
+AMBIENT, DIFFUSE = 0.4, 0.7
 PAINT_GLOW = 0.8  # share of the shadow that vivid paint is spared, so that it can be read off the colour bar
 FADE = 0.4  # share of a collar's reach over which its paint fades
+OCCLUSION = 0.7  # share of the light from the hidden sky that is lost
 OCCLUDERS = 24  # neighbours that may shade a sphere
 BAND = 64  # rows shaded at a time, which bounds the memory
 NOTHING = -1
@@ -90,8 +91,8 @@ def visible_surface(centers: FloatArray, radii: FloatArray, height: int, width: 
     owner = np.full((height, width), NOTHING, dtype=np.int32)
     for i, (center, radius) in enumerate(zip(centers, radii, strict=True)):
         window, across, along = _window(center, radius, depth.shape)
-        above = radius**2 - across**2 - along**2
-        surface = center[2] + np.sqrt(np.maximum(above, 0))
+        above = np.float32(radius**2) - across**2 - along**2
+        surface = np.float32(center[2]) + np.sqrt(np.maximum(above, 0))
         nearer = (above > 0) & (surface > depth[window])
         depth[window][nearer] = surface[nearer]
         owner[window][nearer] = i
@@ -107,9 +108,7 @@ def _window(center: FloatArray, reach: float, shape: Sequence[int]) -> tuple[tup
     return (slice(low[1], high[1]), slice(low[0], high[0])), across[None, :], along[:, None]
 
 
-def _painted(
-    depth: Image, owner: NDArray[np.int32], collars: Collars, samples: int
-) -> tuple[Image, NDArray[np.int32]]:
+def _painted(depth: Image, owner: NDArray[np.int32], collars: Collars, samples: int) -> tuple[Image, NDArray[np.int32]]:
     """Colour (H, W, 3) of the visible surface before light falls on it, and the nearest contact painted there.
 
     The paint is full near the contact point and fades out towards `reaches`; where collars meet, they add.
@@ -121,9 +120,10 @@ def _painted(
     reaches, tints = samples * collars.reaches, (collars.colours - SPHERE_COLOUR).astype(np.float32)
     for c, (point, reach) in enumerate(zip(samples * collars.points, reaches, strict=True)):
         window, across, along = _window(point, reach, depth.shape)
+        distance2 = across**2 + along**2 + (depth[window] - np.float32(point[2])) ** 2
         ours = (owner[window] == collars.pairs[c, 0]) | (owner[window] == collars.pairs[c, 1])
-        ours[ours] = ((across**2 + along**2 + (depth[window] - point[2]) ** 2)[ours]) < reach**2
-        distance = np.sqrt((across**2 + along**2)[ours] + (depth[window][ours] - np.float32(point[2])) ** 2)
+        ours &= distance2 < np.float32(reach**2)
+        distance = np.sqrt(distance2[ours])
         share = np.clip((1 - distance / np.float32(reach)) / np.float32(FADE), 0, 1)
         colour[window][ours] += (share * share * (3 - 2 * share))[:, None] * tints[c]
         first = distance < nearest[window][ours]
@@ -169,7 +169,7 @@ def _openness(centers: FloatArray, radii: FloatArray, depth: Image, owner: NDArr
     openness = np.ones(coarse_owner.shape, dtype=np.float32)
     count = min(OCCLUDERS, len(radii) - 1)
     if count:
-        neighbours = cKDTree(centers).query(centers, k=[*range(2, count + 2)])[1]
+        neighbours = np.asarray(cKDTree(centers).query(centers, k=[*range(2, count + 2)])[1])
         for i, (center, radius) in enumerate(zip(centers, radii, strict=True)):
             window, across, along = _window(center / samples, radius / samples, openness.shape)
             mine = coarse_owner[window] == i
@@ -182,11 +182,11 @@ def _openness(centers: FloatArray, radii: FloatArray, depth: Image, owner: NDArr
 
 def _open_sky(offset: Image, radius: float, others: FloatArray, other_radii: FloatArray) -> Image:
     """Open share (P,) of the sky over surface points (P, 3) of a sphere, between spheres (J, 3), from its centre."""
-    along_normal = (offset / np.float32(radius)) @ others.T.astype(np.float32)
-    distance2 = np.sum(others**2, axis=1).astype(np.float32) + np.float32(radius**2) - 2 * radius * along_normal
-    rise = np.maximum(along_normal - np.float32(radius), 0)
-    hidden = rise * other_radii.astype(np.float32) ** 2 / np.maximum(distance2, 1e-12) ** 1.5
-    return np.prod(1 - 0.8 * np.minimum(hidden, 1), axis=1)
+    a, others, other_radii = np.float32(radius), others.astype(np.float32), other_radii.astype(np.float32)
+    along_normal = (offset / a) @ others.T
+    distance2 = np.sum(others**2, axis=1) + a**2 - 2 * a * along_normal
+    hidden = np.maximum(along_normal - a, 0) * other_radii**2 / np.maximum(distance2, 1e-12) ** 1.5
+    return np.asarray(np.prod(1 - OCCLUSION * np.minimum(hidden, 1), axis=1), dtype=np.float32)
 
 
 def _draw_rims(colour: Image, normal: Image, radius: Image, samples: int) -> None:

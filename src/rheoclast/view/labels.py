@@ -10,7 +10,7 @@ from rheoclast._checks import FloatArray
 from rheoclast.view.colours import ColourScale
 from rheoclast.view.projection import principal_axes
 from rheoclast.view.quantities import minus, prefixed, quoted, round_down
-from rheoclast.view.rendering import Rendering
+from rheoclast.view.rendering import Image, Rendering
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -42,9 +42,9 @@ def draw_colour_bar(figure: Figure, box: Box, scale: ColourScale, quantity: str,
     bar = figure.colorbar(
         ScalarMappable(scale.norm, scale.map), cax=axes, orientation="horizontal", extend=scale.extend, extendfrac=0.05
     )
-    ticks = scale.limit * np.linspace(-1, 1, 5)
+    ticks = scale.limit * np.linspace(-1, 1, 5 if box[2] * figure.get_figwidth() > 1.8 else 3)
     bar.set_ticks(list(ticks), labels=[minus(f"{tick / divisor:g}") for tick in ticks])
-    bar.outline.set(edgecolor=FAINT_INK, linewidth=0.6)  # type: ignore[operator]
+    bar.outline.set(edgecolor=FAINT_INK, linewidth=0.6)
     axes.tick_params(labelsize=TINY, length=2.5, width=0.6, color=FAINT_INK, labelcolor=INK, pad=2)
     label = f"{quantity} ({shown_unit})" if shown_unit else quantity
     axes.set_title(label, size=SMALL, color=INK, pad=4)
@@ -58,33 +58,33 @@ def draw_triad(figure: Figure, box: Box, view: FloatArray) -> None:
         length = float(np.hypot(*tip))
         if length < 0.12:
             _draw_end_on(axes, towards=view[2, "xyz".index(name)] > 0)
-            axes.text(-0.22, -0.2, name, ha="center", va="center", size=TINY, color=FAINT_INK)
+            axes.text(-0.38, -0.34, name, ha="center", va="center", size=TINY, color=FAINT_INK)
             continue
         _arrow(axes, np.zeros(2), 0.85 * tip, FAINT_INK)
-        axes.text(*(0.85 * tip + 0.3 * tip / length), name, ha="center", va="center", size=TINY, color=FAINT_INK)
+        beyond = (0.85 + 0.3 / length) * tip
+        axes.text(float(beyond[0]), float(beyond[1]), name, ha="center", va="center", size=TINY, color=FAINT_INK)
 
 
 def draw_flow(figure: Figure, box: Box, view: FloatArray, strain_rate: FloatArray) -> None:
     """Principal strain rates as pairs of arrows: outwards where lines of fluid lengthen, inwards where they shorten."""
     axes = _bare_axes(figure, box)
     axes.set(xlim=(-1.2, 1.2), ylim=(-1.2, 1.2))
-    axes.set_title("flow", size=TINY, color=FAINT_INK, pad=0)
     rates, directions = principal_axes(view @ strain_rate @ view.T)
-    largest = float(np.abs(rates).max()) or 1.0
+    largest, top = float(np.abs(rates).max()) or 1.0, 0.0
     for rate, direction in zip(rates / largest, directions, strict=True):
         reach = 0.3 + 0.75 * abs(rate)
         inner, outer = 0.25 * direction[:2], reach * direction[:2]
         if np.hypot(*(outer - inner)) < 0.12:
             continue
         start, end, colour = (inner, outer, EXTENDED) if rate > 0 else (outer, inner, SHORTENED)
+        top = max(top, abs(float(outer[1])))
         for side in (1, -1):
             _arrow(axes, side * start, side * end, colour)
+    axes.text(0, top + 0.25, "flow", ha="center", va="bottom", size=TINY, color=FAINT_INK)
 
 
-def mark_contact(
-    axes: Axes, rendering: Rendering, point: FloatArray, radius: float, contact: int, text: str
-) -> None:
-    """Ring of a radius around a contact point (in pixels) and a leader to a label where the picture is emptiest near by.
+def mark_contact(axes: Axes, rendering: Rendering, point: FloatArray, radius: float, contact: int, text: str) -> None:
+    """Ring of a radius around a contact point, in pixels, and a leader to a label where the picture is emptiest.
 
     The ring is dashed where the contact is hidden behind spheres.
     """
@@ -104,12 +104,12 @@ def mark_contact(
     label.set_bbox({"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.5})
     half -= 3 * pixel
     nearest = np.clip(point[:2], place - half, place + half)
-    leave = point[:2] + radius * (nearest - point[:2]) / np.linalg.norm(nearest - point[:2])
+    leave = point[:2] + radius * (nearest - point[:2]) / max(float(np.linalg.norm(nearest - point[:2])), pixel)
     for colour, width in (("white", 2.6), (INK, 1.0)):
         axes.plot(*np.stack([leave, nearest], axis=1), color=colour, linewidth=width, solid_capstyle="round")
 
 
-def _free_place(opacity: np.ndarray, point: FloatArray, half: FloatArray, clearance: float) -> FloatArray:
+def _free_place(opacity: Image, point: FloatArray, half: FloatArray, clearance: float) -> FloatArray:
     """Middle of a box of half size `half`, inside the image, that covers least of it and is near the point."""
     height, width = opacity.shape
     total = np.pad(opacity.astype(np.float64).cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))

@@ -1,0 +1,65 @@
+"""How the command line speaks: one line per error or warning, and a progress bar for what takes long."""
+
+from __future__ import annotations
+
+import threading
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+SECONDS_WITHOUT_PROGRESS = 2.0
+
+screen = Console(highlight=False)
+messages = Console(stderr=True, highlight=False)
+
+
+@contextmanager
+def plain_speech(debug: bool) -> Iterator[None]:
+    """Turn errors of the input into one line and exit status 1, and warnings into one line each, unless debugging."""
+    with warnings.catch_warnings(record=not debug) as caught:
+        warnings.simplefilter("always")
+        try:
+            yield
+        except (ValueError, OSError, ArithmeticError, MemoryError) as error:
+            if debug:
+                raise
+            messages.print(f"[red]error:[/red] {_one_line(error)}", soft_wrap=True)
+            raise SystemExit(1) from None
+        finally:
+            for text in dict.fromkeys(_one_line(warning.message) for warning in caught or ()):
+                messages.print(f"[yellow]warning:[/yellow] {text}", soft_wrap=True)
+
+
+def _one_line(message: object) -> str:
+    return escape(" ".join(str(message).split()))
+
+
+@contextmanager
+def progress_bar() -> Iterator[Callable[[str, float], None]]:
+    """A function progress(step, fraction) that draws a bar on standard error once two seconds have passed."""
+    bar = Progress(
+        SpinnerColumn(),
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+        console=messages,
+        transient=True,
+    )
+    task = bar.add_task("solving", total=None)
+
+    def progress(step: str, fraction: float) -> None:
+        bar.update(task, description=step, completed=fraction, total=1.0 if fraction > 0 else None)
+
+    starting = threading.Timer(SECONDS_WITHOUT_PROGRESS, bar.start)
+    starting.start()
+    try:
+        yield progress
+    finally:
+        starting.cancel()
+        starting.join()
+        bar.stop()

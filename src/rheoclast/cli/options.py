@@ -1,0 +1,148 @@
+"""The options that commands share, and the values made from them."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+
+from rheoclast.flows import LinearFlow, biaxial_extension, planar_extension, simple_shear, uniaxial_extension
+from rheoclast.hydrodynamics.free_draining import FreeDraining
+from rheoclast.hydrodynamics.model import HydrodynamicModel
+from rheoclast.hydrodynamics.stokesian_dynamics import StokesianDynamics
+from rheoclast.mechanics.laws.jkr import JKR
+from rheoclast.mechanics.laws.law import ContactLaw
+from rheoclast.mechanics.laws.measured_pull_off import MeasuredPullOff
+from rheoclast.mechanics.laws.uniform import Uniform
+from rheoclast.mechanics.material import MATERIALS, Material
+
+
+class Flow(StrEnum):
+    """Flows by name."""
+
+    shear = "shear"
+    uniaxial = "uniaxial"
+    biaxial = "biaxial"
+    planar = "planar"
+
+
+class Model(StrEnum):
+    """Hydrodynamic models by name."""
+
+    stokesian = "stokesian"
+    free_draining = "free-draining"
+
+
+FLOWS = {
+    Flow.shear: simple_shear,
+    Flow.uniaxial: uniaxial_extension,
+    Flow.biaxial: biaxial_extension,
+    Flow.planar: planar_extension,
+}
+
+AGGREGATE, FLOW, LIQUID, BONDS, OUTPUT = "Aggregate", "Flow", "Liquid and model", "Contacts", "Output"
+
+File = Annotated[Path, typer.Argument(help="Spheres: text (x y z r), CSV, XYZ, LAMMPS dump or data.", show_default=False)]
+Unit = Annotated[str, typer.Option(help="Unit of length in the file: m, mm, um, nm, or a number in metres.", rich_help_panel=AGGREGATE)]
+Format = Annotated[
+    str | None,
+    typer.Option("--format", help="text, csv, xyz, lammps-dump or lammps-data; by default from the file.", rich_help_panel=AGGREGATE),
+]
+Radius = Annotated[float | None, typer.Option(help="Radius of all spheres if the file has none, in its unit.", rich_help_panel=AGGREGATE)]
+Tolerance = Annotated[float, typer.Option(help="Largest gap that counts as touching, in mean radii.", rich_help_panel=AGGREGATE)]
+OverlapTolerance = Annotated[float, typer.Option(help="Largest overlap that counts as touching, in mean radii.", rich_help_panel=AGGREGATE)]
+FlowName = Annotated[Flow, typer.Option("--flow", help="Kind of flow.", rich_help_panel=FLOW)]
+Rate = Annotated[float, typer.Option(help="Shear or extension rate, 1/s.", rich_help_panel=FLOW)]
+Gradient = Annotated[
+    str | None,
+    typer.Option(help="Any velocity gradient instead: nine numbers in 1/s, row by row.", rich_help_panel=FLOW, show_default=False),
+]
+Viscosity = Annotated[float, typer.Option(help="Viscosity of the liquid, Pa s.", rich_help_panel=LIQUID)]
+ModelName = Annotated[Model, typer.Option("--model", help="Hydrodynamic model.", rich_help_panel=LIQUID)]
+Order = Annotated[int, typer.Option(help="Multipole order: 2 is force-torque-stresslet.", rich_help_panel=LIQUID)]
+MaterialName = Annotated[str, typer.Option("--material", help=f"One of: {', '.join(MATERIALS)}.", rich_help_panel=BONDS)]
+YoungsModulus = Annotated[float | None, typer.Option(help="In Pa, instead of the material's.", rich_help_panel=BONDS)]
+PoissonRatio = Annotated[float | None, typer.Option(help="Instead of the material's.", rich_help_panel=BONDS)]
+WorkOfAdhesion = Annotated[float | None, typer.Option(help="In J/m², instead of the material's.", rich_help_panel=BONDS)]
+PullOff = Annotated[float | None, typer.Option(help="Pull-off force of every contact in N, instead of JKR's.", rich_help_panel=BONDS)]
+Stiffness = Annotated[
+    tuple[float, float, float, float] | None,
+    typer.Option(
+        help="Explicit normal and tangential (N/m), bending and twisting (N m/rad) stiffness; needs --pull-off.",
+        rich_help_panel=BONDS,
+        show_default=False,
+    ),
+]
+Output = Annotated[
+    Path | None,
+    typer.Option(help="Folder for tables, VTP, XYZ, picture and summary.", rich_help_panel=OUTPUT, show_default=False),
+]
+Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace files that exist.", rich_help_panel=OUTPUT)]
+Json = Annotated[bool, typer.Option("--json", help="Print the summary as JSON and nothing else.", rich_help_panel=OUTPUT)]
+Dimensionless = Annotated[
+    bool,
+    typer.Option(
+        "--dimensionless",
+        help="Results in units of mean radius a, viscosity μ and rate G: forces in μGa², moments in μGa³.",
+        rich_help_panel=OUTPUT,
+    ),
+]
+
+
+def length_unit(text: str) -> str | float:
+    """The unit of length as `read` takes it: a name or a number."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def chosen_flow(name: Flow, rate: float, gradient: str | None) -> LinearFlow:
+    """The flow by name and rate, or by its gradient."""
+    if gradient is None:
+        return FLOWS[name](rate)
+    words = gradient.replace(",", " ").split()
+    try:
+        numbers = np.array([float(word) for word in words])
+    except ValueError:
+        raise ValueError(f"--gradient: expected nine numbers, got {gradient!r}") from None
+    if numbers.size != 9:
+        raise ValueError(f"--gradient: expected nine numbers, got {numbers.size}")
+    return LinearFlow(numbers.reshape(3, 3))
+
+
+def chosen_model(name: Model, order: int) -> HydrodynamicModel:
+    """The hydrodynamic model by name."""
+    return StokesianDynamics(order) if name is Model.stokesian else FreeDraining()
+
+
+def chosen_material(
+    name: str, youngs_modulus: float | None, poisson_ratio: float | None, work_of_adhesion: float | None
+) -> Material:
+    """A material by name, with the properties that are given instead of its own."""
+    if name not in MATERIALS:
+        raise ValueError(
+            f"--material: expected one of {', '.join(MATERIALS)}, got {name!r}; for another material add "
+            "--youngs-modulus, --poisson-ratio and --work-of-adhesion to one of these"
+        )
+    known = MATERIALS[name]
+    return Material(
+        known.youngs_modulus if youngs_modulus is None else youngs_modulus,
+        known.poisson_ratio if poisson_ratio is None else poisson_ratio,
+        known.work_of_adhesion if work_of_adhesion is None else work_of_adhesion,
+    )
+
+
+def chosen_law(
+    material: Material, pull_off: float | None, stiffness: tuple[float, float, float, float] | None
+) -> ContactLaw:
+    """JKR contacts of the material, or a measured pull-off force with JKR or explicit stiffness."""
+    if stiffness is not None:
+        if pull_off is None:
+            raise ValueError("--stiffness: explicit stiffness needs the strength too; add --pull-off")
+        return Uniform(*stiffness, tensile_strength=pull_off)
+    law = JKR(material)
+    return law if pull_off is None else MeasuredPullOff(pull_off, law)

@@ -1,0 +1,84 @@
+"""Summaries on the screen."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rich.table import Table
+
+from rheoclast.cli.console import screen
+from rheoclast.view.quantities import quoted
+
+PREFIXED = ("m", "N", "N m")
+
+
+def show_shape(name: str, summary: dict[str, Any], length: str) -> None:
+    """Print what an aggregate is."""
+    table = _table(name)
+    _shape_rows(table, summary, length)
+    screen.print(table)
+
+
+def show_stress(name: str, summary: dict[str, Any]) -> None:
+    """Print what the contacts of an aggregate carry, which one fails first, and when."""
+    units = summary["units"]
+    table = _table(name)
+    _shape_rows(table, summary["aggregate"], units["length"])
+    table.add_section()
+    _flow_rows(table, summary)
+    table.add_section()
+    for load, value in summary["largest"].items():
+        unit = units["moment" if load in ("bending", "twisting") else "force"]
+        table.add_row(f"largest {load}", _quoted(value, unit))
+    table.add_section()
+    _failure_rows(table, "as given", summary["given_orientation"], units)
+    table.add_section()
+    _failure_rows(table, "worst orientation", summary["worst_orientation"], units)
+    screen.print(table)
+
+
+def _quoted(value: float, unit: str) -> str:
+    return quoted(value, unit) if unit in PREFIXED else f"{value:.4g} {unit}"
+
+
+def _table(title: str) -> Table:
+    table = Table(title=title, show_header=False, title_justify="left", title_style="bold")
+    table.add_column(style="cyan")
+    table.add_column()
+    return table
+
+
+def _shape_rows(table: Table, summary: dict[str, Any], length: str) -> None:
+    table.add_row("spheres", str(summary["spheres"]))
+    table.add_row("contacts", str(summary["contacts"]))
+    table.add_row("structure", f"{summary['structure']}, hyperstaticity {summary['hyperstaticity']}")
+    counts = ", ".join(f"{number} × {contacts}" for contacts, number in summary["coordination_counts"].items())
+    table.add_row("coordination", f"mean {summary['mean_coordination']:.3g} ({counts})")
+    radius = _quoted(summary["mean_radius"], length)
+    if summary["smallest_radius"] < summary["largest_radius"]:
+        radius += f" (from {_quoted(summary['smallest_radius'], length)} to {_quoted(summary['largest_radius'], length)})"
+    table.add_row("mean sphere radius", radius)
+    table.add_row("radius of gyration", _quoted(summary["radius_of_gyration"], length))
+    if "hydrodynamic_radius" in summary:
+        table.add_row("hydrodynamic radius", _quoted(summary["hydrodynamic_radius"], length))
+    if "intrinsic_viscosity" in summary:
+        table.add_row("intrinsic viscosity", f"{summary['intrinsic_viscosity']:.4g}")
+
+
+def _flow_rows(table: Table, summary: dict[str, Any]) -> None:
+    model, flow = summary["model"], summary["flow"]
+    order = f", order {model['order']}" if model["order"] else ""
+    table.add_row("model", f"{model['name']}{order}")
+    table.add_row("viscosity", f"{model['viscosity_Pa_s']:.4g} Pa s")
+    table.add_row("flow", f"{flow['name']}, rate {flow['rate_per_s']:.4g} 1/s")
+
+
+def _failure_rows(table: Table, orientation: str, failure: dict[str, Any], units: dict[str, str]) -> None:
+    if failure["contact"] is None:
+        table.add_row(f"critical contact, {orientation}", "none: no contact is pulled apart")
+        return
+    i, j = failure["pair"]
+    where = f"{failure['contact']} (spheres {i} and {j}, {failure['depth']:.2f} Rg from the centre)"
+    table.add_row(f"critical contact, {orientation}", where)
+    table.add_row("fails by", f"{failure['criterion']}, pull-off force {_quoted(failure['pull_off_force'], units['force'])}")
+    table.add_row("critical rate", f"[bold]{failure['critical_rate']:.4g} {units['rate']}[/bold]")

@@ -1,0 +1,137 @@
+"""The summary and the tables of an analysis, in the units of the report."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from rheoclast._checks import FloatArray, IntArray
+from rheoclast.breakup.initiation import Initiation
+from rheoclast.cli.analysis import Analysis
+from rheoclast.cli.units import Units
+from rheoclast.hydrodynamics.stokesian_dynamics import StokesianDynamics
+from rheoclast.mechanics.criteria import load_ratios
+from rheoclast.particles.aggregate import Aggregate
+from rheoclast.particles.morphology import coordination_numbers, depth, radius_of_gyration
+
+Columns = dict[str, FloatArray | IntArray]
+
+
+def contact_columns(analysis: Analysis, units: Units) -> Columns:
+    """One row per contact: what is loaded, how, and how near to its strength."""
+    loads, aggregate = analysis.contact_loads, analysis.aggregate
+    worst = analysis.table.worst_tension(analysis.flow)
+    strength = analysis.bonds.strength(len(aggregate.pairs))[:, 0]
+    force, moment = units.tags.force, units.tags.moment
+    return {
+        f"tension{force}": loads.tension / units.force,
+        f"shear{force}": loads.shear / units.force,
+        f"bending{moment}": loads.bending / units.moment,
+        f"twisting{moment}": loads.twisting / units.moment,
+        "load_ratio": load_ratios(loads, analysis.bonds).max(axis=-1),
+        f"worst_tension{force}": worst / units.force,
+        "worst_load_ratio": worst / strength,
+        f"force{force}": loads.force / units.force,
+        f"moment{moment}": loads.moment / units.moment,
+        "depth": depth(aggregate, aggregate.contact_points),
+    }
+
+
+def contact_table(analysis: Analysis, units: Units) -> Columns:
+    """`contact_columns` with the pair and the place in front, as written to a file."""
+    aggregate = analysis.aggregate
+    return {
+        "contact": np.arange(len(aggregate.pairs)),
+        "i": aggregate.pairs[:, 0],
+        "j": aggregate.pairs[:, 1],
+        f"point{units.tags.length}": aggregate.contact_points / units.length,
+        "normal": aggregate.normals,
+        **contact_columns(analysis, units),
+    }
+
+
+def sphere_columns(analysis: Analysis, units: Units) -> Columns:
+    """One row per sphere: the loads of the fluid."""
+    return {
+        f"force{units.tags.force}": analysis.sphere_loads.force / units.force,
+        f"torque{units.tags.moment}": analysis.sphere_loads.torque / units.moment,
+        "coordination": coordination_numbers(analysis.aggregate),
+    }
+
+
+def sphere_table(analysis: Analysis, units: Units) -> Columns:
+    """`sphere_columns` with the place in front, as written to a file."""
+    spheres = analysis.aggregate.spheres
+    x, y, z = spheres.centers.T / units.length
+    tag = units.tags.length
+    place = {f"x{tag}": x, f"y{tag}": y, f"z{tag}": z, f"radius{tag}": spheres.radii / units.length}
+    return {**place, **sphere_columns(analysis, units)}
+
+
+def shape_summary(aggregate: Aggregate, length: float = 1.0) -> dict[str, Any]:
+    """What the spheres and contacts alone tell, lengths in the unit `length`."""
+    coordination = coordination_numbers(aggregate)
+    radii = aggregate.spheres.radii
+    return {
+        "spheres": len(aggregate),
+        "contacts": len(aggregate.pairs),
+        "hyperstaticity": aggregate.hyperstaticity,
+        "structure": "isostatic (tree)" if aggregate.is_tree else "hyperstatic",
+        "mean_radius": float(radii.mean()) / length,
+        "smallest_radius": float(radii.min()) / length,
+        "largest_radius": float(radii.max()) / length,
+        "radius_of_gyration": radius_of_gyration(aggregate.spheres) / length,
+        "mean_coordination": float(coordination.mean()),
+        "coordination_counts": {str(k): int(n) for k, n in enumerate(np.bincount(coordination)) if n},
+    }
+
+
+def stress_summary(analysis: Analysis, units: Units) -> dict[str, Any]:
+    """Everything that the command reports, ready for JSON."""
+    loads = analysis.contact_loads
+    most = int(loads.tension.argmax())
+    model = analysis.response.model
+    return {
+        "aggregate": {
+            **shape_summary(analysis.aggregate, units.length),
+            "hydrodynamic_radius": analysis.response.hydrodynamic_radius / units.length,
+        },
+        "model": {
+            "name": type(model).__name__,
+            "order": model.order if isinstance(model, StokesianDynamics) else None,
+            "viscosity_Pa_s": analysis.response.viscosity,
+        },
+        "flow": {"gradient_per_s": analysis.flow.gradient.tolist(), "rate_per_s": analysis.flow.rate},
+        "most_tensioned": {
+            "contact": most,
+            "pair": analysis.aggregate.pairs[most].tolist(),
+            "tension": float(loads.tension[most]) / units.force,
+        },
+        "largest": {
+            "tension": float(loads.tension.max()) / units.force,
+            "compression": float(-loads.tension.min()) / units.force,
+            "shear": float(loads.shear.max()) / units.force,
+            "bending": float(loads.bending.max()) / units.moment,
+            "twisting": float(np.abs(loads.twisting).max()) / units.moment,
+        },
+        "given_orientation": _failure(analysis, analysis.given, units),
+        "worst_orientation": _failure(analysis, analysis.worst, units),
+        "units": units.names._asdict(),
+    }
+
+
+def _failure(analysis: Analysis, first: Initiation, units: Units) -> dict[str, Any]:
+    if first.contact is None:
+        return {"contact": None, "critical_rate": None}
+    aggregate = analysis.aggregate
+    strength = analysis.bonds.strength(len(aggregate.pairs))[first.contact, 0]
+    return {
+        "contact": first.contact,
+        "pair": aggregate.pairs[first.contact].tolist(),
+        "criterion": first.criterion,
+        "critical_rate": first.rate / units.rate,
+        "pull_off_force": float(strength) / units.force,
+        "depth": float(depth(aggregate, aggregate.contact_points[first.contact])),
+        "flow_gradient_per_s": first.flow.gradient.tolist(),
+    }

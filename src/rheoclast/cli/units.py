@@ -1,0 +1,47 @@
+"""The units in which the command line reports."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from rheoclast.cli.analysis import Analysis
+
+
+class UnitNames(NamedTuple):
+    """How each unit is called."""
+
+    length: str
+    force: str
+    moment: str
+    rate: str
+
+
+@dataclass(frozen=True)
+class Units:
+    """Size of each reported unit in SI, its name, and what it adds to the name of a column.
+
+    In dimensionless units lengths are in mean radii a, forces in μ G a², moments in μ G a³ with G the rate of the flow,
+    and critical rates in F/(μ a²) with F the mean pull-off force of the contacts.
+    """
+
+    length: float = 1.0
+    force: float = 1.0
+    rate: float = 1.0
+    names: UnitNames = UnitNames("m", "N", "N m", "1/s")
+    tags: UnitNames = UnitNames("_m", "_N", "_Nm", "_per_s")
+
+    @property
+    def moment(self) -> float:
+        """Size of the unit of moment in N m."""
+        return self.force * self.length
+
+    @classmethod
+    def dimensionless(cls, analysis: Analysis) -> Units:
+        """Units made from the aggregate, the liquid and the flow."""
+        scales, rate = analysis.response.scales, analysis.flow.rate
+        if not rate:
+            raise ValueError("--dimensionless: expected a positive rate to scale with, got 0")
+        strength = float(analysis.bonds.strength(len(analysis.aggregate.pairs))[:, 0].mean())
+        names = UnitNames("a", "μGa²", "μGa³", "F/μa²")
+        return cls(scales.length, scales.force * rate, strength / scales.force, names, UnitNames("", "", "", ""))

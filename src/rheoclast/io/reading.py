@@ -1,0 +1,127 @@
+"""Aggregates and spheres from files."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import numpy as np
+
+from rheoclast import _checks, scales
+from rheoclast._checks import FloatArray
+from rheoclast.errors import GeometryError
+from rheoclast.io import lengths
+from rheoclast.io.files import TextFile, load
+from rheoclast.io.formats import reader_for
+from rheoclast.io.rows import SphereRows
+from rheoclast.particles.aggregate import Aggregate
+from rheoclast.particles.contacts import CONTACT_TOLERANCE
+from rheoclast.particles.spheres import Spheres
+
+
+def read(
+    path: str | os.PathLike[str],
+    unit: str | float = "m",
+    *,
+    format: str | None = None,
+    radius: float | None = None,
+    tolerance: float = CONTACT_TOLERANCE,
+    overlap_tolerance: float = CONTACT_TOLERANCE,
+) -> Aggregate:
+    """Aggregate of the touching spheres in a file.
+
+    Parameters
+    ----------
+    path
+        File of spheres; of a file with several frames the last is read.
+    unit
+        Unit of length of the file: "m", "cm", "mm", "um", "nm", "angstrom", "dimensionless", or its value in m.
+    format
+        "text", "csv", "xyz", "lammps-dump" or "lammps-data"; by default told from the suffix, then from the content.
+    radius
+        Radius of all spheres, in the unit of the file, for a file without radii.
+    tolerance
+        Largest gap of two spheres, in mean radii of the pair, that counts as contact.
+    overlap_tolerance
+        Largest overlap of two spheres, in mean radii of the pair, that counts as contact.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    FileFormatError
+        If the file cannot be understood, with the line where there is one; if it has no radii and none is given, or
+        radii and one is given; if it states another unit of length.
+    GeometryError
+        If spheres overlap or the aggregate is in several parts.
+
+    Warns
+    -----
+    UnitWarning
+        If a radius exceeds 1 mm, unless lengths are dimensionless.
+    """
+    spheres = read_spheres(path, unit, format=format, radius=radius, overlap_tolerance=overlap_tolerance)
+    with _named(path):
+        return Aggregate.touching(spheres, tolerance)
+
+
+def read_spheres(
+    path: str | os.PathLike[str],
+    unit: str | float = "m",
+    *,
+    format: str | None = None,
+    radius: float | None = None,
+    overlap_tolerance: float = CONTACT_TOLERANCE,
+) -> Spheres:
+    """Spheres in a file, which need not touch. Parameters, errors and warnings as in `read`."""
+    metres = lengths.metres(unit)
+    file = load(path)
+    found = reader_for(file, format)(file)
+    _refuse_other_unit(file, found, unit, metres)
+    radii = _radii(file, found, radius) * metres
+    with _named(path):
+        spheres = Spheres(found.centers * metres, radii, overlap_tolerance)
+    if unit != lengths.DIMENSIONLESS:
+        scales.warn_of_radii(spheres.radii)
+    return spheres
+
+
+def _radii(file: TextFile, found: SphereRows, radius: float | None) -> FloatArray:
+    """Radii in the unit of the file, from the file or from the caller, never from both."""
+    if found.radii is None:
+        if radius is None:
+            raise file.error("expected a radius of every sphere, got only positions; pass radius= in the file's unit")
+        return np.full(len(found.centers), _checks.positive("radius", radius))
+    if radius is not None:
+        raise file.error(f"expected no radius=, because the file has radii, got {radius!r:.60}; leave it out")
+    bad = np.flatnonzero(found.radii <= 0)
+    if len(bad):
+        first = int(bad[0])
+        raise file.error(
+            f"expected a positive radius, got {found.radii[first]:g} for sphere {first}; correct or remove it",
+            found.lines[first],
+        )
+    return found.radii
+
+
+def _refuse_other_unit(file: TextFile, found: SphereRows, unit: str | float, metres: float) -> None:
+    """Refuse a unit that contradicts the one in the file's column names: the error would be a power of ten."""
+    if unit == lengths.DIMENSIONLESS:
+        return
+    for stated in sorted(found.units):
+        if not math.isclose(lengths.METRES[stated], metres, rel_tol=1e-9):
+            raise file.error(
+                f"expected lengths in {lengths.ascii_name(unit)}, got columns in {stated} by their names; "
+                f"pass unit={stated!r} or rename the columns"
+            )
+
+
+@contextmanager
+def _named(path: str | os.PathLike[str]) -> Iterator[None]:
+    """Put the name of the file in front of what is wrong with its geometry."""
+    try:
+        yield
+    except GeometryError as error:
+        raise GeometryError(f"{path}: {error}") from None
