@@ -6,6 +6,7 @@ __version__ = "0.1.0"
 from rheoclast.particles.spheres import Spheres
 from rheoclast.particles.aggregate import Aggregate
 from rheoclast.particles.morphology import coordination_numbers, radius_of_gyration
+from rheoclast.io import read, read_spheres, write, write_table
 
 from rheoclast.flows import LinearFlow, biaxial_extension, planar_extension, simple_shear, uniaxial_extension
 from rheoclast.hydrodynamics.model import HydrodynamicModel
@@ -35,6 +36,10 @@ __all__ = [
     "Aggregate",
     "coordination_numbers",
     "radius_of_gyration",
+    "read",
+    "read_spheres",
+    "write",
+    "write_table",
     "LinearFlow",
     "biaxial_extension",
     "planar_extension",

@@ -19,7 +19,11 @@ from rheoclast.cli.console import plain_speech, progress_bar, screen
 from rheoclast.cli.presentation import show_shape, show_stress
 from rheoclast.cli.tables import shape_summary, stress_summary
 from rheoclast.cli.units import Units
+from rheoclast.flows import simple_shear
 from rheoclast.hydrodynamics.response import rigid_response
+from rheoclast.hydrodynamics.stokesian_dynamics import StokesianDynamics
+from rheoclast.mechanics.laws.jkr import JKR
+from rheoclast.mechanics.material import MATERIALS
 from rheoclast.particles.contacts import CONTACT_TOLERANCE
 
 app = typer.Typer(no_args_is_help=True, pretty_exceptions_enable=False, rich_markup_mode="rich")
@@ -40,10 +44,10 @@ def _show_version(wanted: bool) -> None:
 
 @app.callback()
 def rheoclast_command(
-    version: Annotated[  # noqa: ARG001
+    version: Annotated[
         bool, typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version.")
     ] = False,
-    debug: Annotated[bool, typer.Option("--debug", help="Show the traceback of an error; goes anywhere.")] = False,  # noqa: ARG001
+    debug: Annotated[bool, typer.Option("--debug", help="Show the traceback of an error; goes anywhere.")] = False,
 ) -> None:
     """Flow-induced stresses and breakup of rigid colloidal aggregates."""
 
@@ -171,10 +175,10 @@ def demo(
     with resources.as_file(floc) as path, progress_bar() as progress:
         analysis = analyse(
             io.read(path, "nm"),
-            options.chosen_flow(options.Flow.shear, 1e5, None),
-            options.chosen_model(options.Model.stokesian, 2),
+            simple_shear(1e5),
+            StokesianDynamics(order=2),
             1e-3,
-            options.chosen_law(options.MATERIALS["polystyrene"], None, None),
+            JKR(MATERIALS["polystyrene"]),
             progress,
         )
     _report("demonstration floc", "shear", analysis, output, as_json=False, dimensionless=False)

@@ -62,4 +62,5 @@ def progress_bar() -> Iterator[Callable[[str, float], None]]:
     finally:
         starting.cancel()
         starting.join()
-        bar.stop()
+        if bar.live.is_started:
+            bar.stop()

@@ -45,29 +45,53 @@ FLOWS = {
 
 AGGREGATE, FLOW, LIQUID, BONDS, OUTPUT = "Aggregate", "Flow", "Liquid and model", "Contacts", "Output"
 
-File = Annotated[Path, typer.Argument(help="Spheres: text (x y z r), CSV, XYZ, LAMMPS dump or data.", show_default=False)]
-Unit = Annotated[str, typer.Option(help="Unit of length in the file: m, mm, um, nm, or a number in metres.", rich_help_panel=AGGREGATE)]
+File = Annotated[
+    Path, typer.Argument(help="Spheres: text (x y z r), CSV, XYZ, LAMMPS dump or data.", show_default=False)
+]
+Unit = Annotated[
+    str,
+    typer.Option(help="Unit of length in the file: m, mm, um, nm, or a number in metres.", rich_help_panel=AGGREGATE),
+]
 Format = Annotated[
     str | None,
-    typer.Option("--format", help="text, csv, xyz, lammps-dump or lammps-data; by default from the file.", rich_help_panel=AGGREGATE),
+    typer.Option(
+        "--format",
+        help="text, csv, xyz, lammps-dump or lammps-data; by default from the file.",
+        rich_help_panel=AGGREGATE,
+    ),
 ]
-Radius = Annotated[float | None, typer.Option(help="Radius of all spheres if the file has none, in its unit.", rich_help_panel=AGGREGATE)]
-Tolerance = Annotated[float, typer.Option(help="Largest gap that counts as touching, in mean radii.", rich_help_panel=AGGREGATE)]
-OverlapTolerance = Annotated[float, typer.Option(help="Largest overlap that counts as touching, in mean radii.", rich_help_panel=AGGREGATE)]
+Radius = Annotated[
+    float | None,
+    typer.Option(help="Radius of all spheres if the file has none, in its unit.", rich_help_panel=AGGREGATE),
+]
+Tolerance = Annotated[
+    float, typer.Option(help="Largest gap that counts as touching, in mean radii.", rich_help_panel=AGGREGATE)
+]
+OverlapTolerance = Annotated[
+    float, typer.Option(help="Largest overlap that counts as touching, in mean radii.", rich_help_panel=AGGREGATE)
+]
 FlowName = Annotated[Flow, typer.Option("--flow", help="Kind of flow.", rich_help_panel=FLOW)]
 Rate = Annotated[float, typer.Option(help="Shear or extension rate, 1/s.", rich_help_panel=FLOW)]
 Gradient = Annotated[
     str | None,
-    typer.Option(help="Any velocity gradient instead: nine numbers in 1/s, row by row.", rich_help_panel=FLOW, show_default=False),
+    typer.Option(
+        help="Any velocity gradient instead: nine numbers in 1/s, row by row.", rich_help_panel=FLOW, show_default=False
+    ),
 ]
 Viscosity = Annotated[float, typer.Option(help="Viscosity of the liquid, Pa s.", rich_help_panel=LIQUID)]
 ModelName = Annotated[Model, typer.Option("--model", help="Hydrodynamic model.", rich_help_panel=LIQUID)]
 Order = Annotated[int, typer.Option(help="Multipole order: 2 is force-torque-stresslet.", rich_help_panel=LIQUID)]
-MaterialName = Annotated[str, typer.Option("--material", help=f"One of: {', '.join(MATERIALS)}.", rich_help_panel=BONDS)]
+MaterialName = Annotated[
+    str, typer.Option("--material", help=f"One of: {', '.join(MATERIALS)}.", rich_help_panel=BONDS)
+]
 YoungsModulus = Annotated[float | None, typer.Option(help="In Pa, instead of the material's.", rich_help_panel=BONDS)]
 PoissonRatio = Annotated[float | None, typer.Option(help="Instead of the material's.", rich_help_panel=BONDS)]
-WorkOfAdhesion = Annotated[float | None, typer.Option(help="In J/m², instead of the material's.", rich_help_panel=BONDS)]
-PullOff = Annotated[float | None, typer.Option(help="Pull-off force of every contact in N, instead of JKR's.", rich_help_panel=BONDS)]
+WorkOfAdhesion = Annotated[
+    float | None, typer.Option(help="In J/m², instead of the material's.", rich_help_panel=BONDS)
+]
+PullOff = Annotated[
+    float | None, typer.Option(help="Pull-off force of every contact in N, instead of JKR's.", rich_help_panel=BONDS)
+]
 Stiffness = Annotated[
     tuple[float, float, float, float] | None,
     typer.Option(
@@ -81,7 +105,9 @@ Output = Annotated[
     typer.Option(help="Folder for tables, VTP, XYZ, picture and summary.", rich_help_panel=OUTPUT, show_default=False),
 ]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace files that exist.", rich_help_panel=OUTPUT)]
-Json = Annotated[bool, typer.Option("--json", help="Print the summary as JSON and nothing else.", rich_help_panel=OUTPUT)]
+Json = Annotated[
+    bool, typer.Option("--json", help="Print the summary as JSON and nothing else.", rich_help_panel=OUTPUT)
+]
 Dimensionless = Annotated[
     bool,
     typer.Option(

@@ -56,7 +56,8 @@ def _shape_rows(table: Table, summary: dict[str, Any], length: str) -> None:
     table.add_row("coordination", f"mean {summary['mean_coordination']:.3g} ({counts})")
     radius = _quoted(summary["mean_radius"], length)
     if summary["smallest_radius"] < summary["largest_radius"]:
-        radius += f" (from {_quoted(summary['smallest_radius'], length)} to {_quoted(summary['largest_radius'], length)})"
+        smallest, largest = (_quoted(summary[f"{end}_radius"], length) for end in ("smallest", "largest"))
+        radius += f" (from {smallest} to {largest})"
     table.add_row("mean sphere radius", radius)
     table.add_row("radius of gyration", _quoted(summary["radius_of_gyration"], length))
     if "hydrodynamic_radius" in summary:
@@ -80,5 +81,6 @@ def _failure_rows(table: Table, orientation: str, failure: dict[str, Any], units
     i, j = failure["pair"]
     where = f"{failure['contact']} (spheres {i} and {j}, {failure['depth']:.2f} Rg from the centre)"
     table.add_row(f"critical contact, {orientation}", where)
-    table.add_row("fails by", f"{failure['criterion']}, pull-off force {_quoted(failure['pull_off_force'], units['force'])}")
+    strength = _quoted(failure["pull_off_force"], units["force"])
+    table.add_row("fails by", f"{failure['criterion']}, pull-off force {strength}")
     table.add_row("critical rate", f"[bold]{failure['critical_rate']:.4g} {units['rate']}[/bold]")

@@ -33,7 +33,8 @@ def prepare(folder: Path, overwrite: bool) -> None:
     present = [name for name in FILES if (folder / name).exists()]
     if present and not overwrite:
         raise FileExistsError(
-            f"--output {folder}: {', '.join(present)} already there; add --overwrite to replace, or choose another folder"
+            f"--output {folder}: {', '.join(present)} already there; "
+            "add --overwrite to replace, or choose another folder"
         )
 
 

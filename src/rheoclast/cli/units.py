@@ -17,6 +17,12 @@ class UnitNames(NamedTuple):
     rate: str
 
 
+SI_NAMES = UnitNames("m", "N", "N m", "1/s")
+SI_TAGS = UnitNames("_m", "_N", "_Nm", "_per_s")
+DIMENSIONLESS_NAMES = UnitNames("a", "μGa²", "μGa³", "F/μa²")
+DIMENSIONLESS_TAGS = UnitNames("", "", "", "")
+
+
 @dataclass(frozen=True)
 class Units:
     """Size of each reported unit in SI, its name, and what it adds to the name of a column.
@@ -28,8 +34,8 @@ class Units:
     length: float = 1.0
     force: float = 1.0
     rate: float = 1.0
-    names: UnitNames = UnitNames("m", "N", "N m", "1/s")
-    tags: UnitNames = UnitNames("_m", "_N", "_Nm", "_per_s")
+    names: UnitNames = SI_NAMES
+    tags: UnitNames = SI_TAGS
 
     @property
     def moment(self) -> float:
@@ -43,5 +49,5 @@ class Units:
         if not rate:
             raise ValueError("--dimensionless: expected a positive rate to scale with, got 0")
         strength = float(analysis.bonds.strength(len(analysis.aggregate.pairs))[:, 0].mean())
-        names = UnitNames("a", "μGa²", "μGa³", "F/μa²")
-        return cls(scales.length, scales.force * rate, strength / scales.force, names, UnitNames("", "", "", ""))
+        force, critical_rate = scales.force * rate, strength / scales.force
+        return cls(scales.length, force, critical_rate, DIMENSIONLESS_NAMES, DIMENSIONLESS_TAGS)

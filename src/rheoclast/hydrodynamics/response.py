@@ -197,7 +197,8 @@ class RigidResponse:
     def _mobility(self) -> FloatArray:
         """Inverse (6, 6) of the resistance; a rotation without resistance is left out (order 1, spheres in line)."""
         resistance = self._total_resistance[:6, :6]
-        return np.linalg.pinv((resistance + resistance.T) / 2, rcond=SINGULAR, hermitian=True)
+        inverse = np.linalg.pinv((resistance + resistance.T) / 2, rcond=SINGULAR, hermitian=True)
+        return np.asarray(inverse, dtype=np.float64)
 
     @cached_property
     def _strain_motion(self) -> FloatArray:

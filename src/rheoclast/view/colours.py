@@ -12,7 +12,7 @@ from rheoclast.view.quantities import symmetric_limit
 if TYPE_CHECKING:
     from matplotlib.colors import Colormap, Normalize
 
-COMPRESSED, UNLOADED, PULLED = ("#08399c", "#1f74e0", "#74b0f2"), "#e3e5e8", ("#fa9a70", "#ee5220", "#b80f0a")
+COMPRESSED, UNLOADED, PULLED = ("#08399c", "#1f74e0", "#74b0f2"), "#e3e3e3", ("#fa9a70", "#ee5220", "#b80f0a")
 
 
 class ColourScale:

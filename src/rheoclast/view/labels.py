@@ -56,7 +56,7 @@ def draw_triad(figure: Figure, box: Box, view: FloatArray) -> None:
     axes.set(xlim=(-1.35, 1.35), ylim=(-1.35, 1.35))
     for name, tip in sorted(zip("xyz", view[:2].T, strict=True), key=lambda item: view[2, "xyz".index(item[0])]):
         length = float(np.hypot(*tip))
-        if length < 0.12:
+        if length < 0.2:
             _draw_end_on(axes, towards=view[2, "xyz".index(name)] > 0)
             axes.text(-0.38, -0.34, name, ha="center", va="center", size=TINY, color=FAINT_INK)
             continue
@@ -121,7 +121,8 @@ def _free_place(opacity: Image, point: FloatArray, half: FloatArray, clearance: 
     gap = np.hypot(
         np.maximum(np.abs(x - point[0]) - half[0], 0), np.maximum(np.abs(y - point[1]) - half[1], 0)[:, None]
     )
-    cost = covered + gap / max(width, height) + np.where(gap < clearance, 10.0, 0.0)
+    aside = gap + 0.1 * np.hypot(x - point[0], (y - point[1])[:, None])
+    cost = covered + aside / max(width, height) + np.where(gap < clearance, 10.0, 0.0)
     row, column = np.unravel_index(int(cost.argmin()), cost.shape)
     return np.array([x[column], y[row]])
 

@@ -197,10 +197,9 @@ def _layout(
     room = 2 * MARGIN + (LABEL_ROOM if marked else 0.0)
     free = np.array([size[0] - 2 * MARGIN, size[1] - header - FOOTER - room])
     inches_per_metre = min(float((free / (high - low)).min()), LARGEST_RADIUS / float(aggregate.spheres.radii.max()))
-    lengths = (size[0], header, inches_per_metre * float(high[1] - low[1]) + room, FOOTER)
-    return _Layout(
-        *(round(length * dots_per_inch) / dots_per_inch for length in lengths), inches_per_metre, dots_per_inch
-    )
+    lengths = np.array([size[0], header, inches_per_metre * float(high[1] - low[1]) + room, FOOTER])
+    width, header, picture, footer = (float(length) for length in np.round(lengths * dots_per_inch) / dots_per_inch)
+    return _Layout(width, header, picture, footer, inches_per_metre, dots_per_inch)
 
 
 def _extent(aggregate: Aggregate, axes: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -15,8 +15,8 @@ from scipy.spatial import cKDTree
 
 from rheoclast._checks import FloatArray, IntArray
 
-SPHERE_COLOUR = (0.88, 0.89, 0.9)
-RIM_COLOUR = (0.23, 0.25, 0.28)
+SPHERE_COLOUR = (0.89, 0.89, 0.89)
+RIM_COLOUR = (0.25, 0.25, 0.25)
 LIGHT = np.array([-0.48, 0.58, 0.66]) / np.linalg.norm([-0.48, 0.58, 0.66])
 AMBIENT, DIFFUSE = 0.4, 0.7
 PAINT_GLOW = 0.8  # share of the shadow that vivid paint is spared, so that it can be read off the colour bar

@@ -37,4 +37,4 @@ def file(tmp_path):
 
 @pytest.fixture(scope="session")
 def data():
-    return Path(__file__).parents[2] / "data"
+    return Path(__file__).parents[3] / "examples" / "clusters"

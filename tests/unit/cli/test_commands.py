@@ -1,0 +1,286 @@
+"""The command line as a user meets it: real files in, files and one clear line out."""
+
+import csv
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+from time import sleep
+
+import numpy as np
+import pytest
+from rich.console import Console
+
+import rheoclast as rc
+from rheoclast.cli import main
+from rheoclast.cli.console import progress_bar
+from rheoclast.cli.results import FILES
+
+CLUSTERS = Path(__file__).parents[3] / "examples" / "clusters"
+EQUAL, POLYDISPERSE = CLUSTERS / "fracval_n300_df1.8.dat", CLUSTERS / "fracval_n200_df1.9_polydisperse.dat"
+
+
+@pytest.fixture
+def run(capsys):
+    """Run the command line; returns exit status, standard output and standard error."""
+
+    def run(*arguments):
+        with pytest.raises(SystemExit) as stop:
+            main([str(argument) for argument in arguments])
+        return (stop.value.code or 0, *capsys.readouterr())
+
+    return run
+
+
+@pytest.fixture
+def small(tmp_path):
+    """File of a bent chain of four spheres, in micrometres."""
+    path = tmp_path / "chain.dat"
+    path.write_text("0 0 0 1\n2 0 0 1\n4 0 0 1\n4 2 0 1\n")
+    return path
+
+
+def rows(path):
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+class TestStress:
+    @pytest.mark.parametrize(("file", "spheres"), [(EQUAL, 300), (POLYDISPERSE, 200)])
+    def test_reports_a_tree_of_another_code(self, run, file, spheres):
+        status, out, err = run("stress", file, "--unit", "nm", "--rate", 1e5, "--material", "polystyrene", "--json")
+        report = json.loads(out)
+        assert (status, err) == (0, "")
+        assert report["aggregate"]["spheres"] == spheres
+        assert report["aggregate"]["contacts"] == spheres - 1
+        assert report["aggregate"]["hyperstaticity"] == 0
+        given, worst = report["given_orientation"], report["worst_orientation"]
+        assert 0 < worst["critical_rate"] <= given["critical_rate"]
+
+    def test_agrees_with_the_library(self, run):
+        _, out, _ = run("stress", POLYDISPERSE, "--unit", "nm", "--flow", "uniaxial", "--rate", 1e5, "--json")
+        report = json.loads(out)
+        floc = rc.read(POLYDISPERSE, "nm")
+        bonds = rc.jkr_bonds(floc, rc.MATERIALS["polystyrene"])
+        response = rc.rigid_response(floc.spheres, rc.StokesianDynamics(), viscosity=1e-3)
+        flow = rc.uniaxial_extension(1e5)
+        carried = rc.contact_loads(floc, response.loads(flow), bonds)
+        assert report["largest"]["tension"] == pytest.approx(carried.tension.max(), rel=1e-9)
+        ratio = (carried.tension / bonds.tensile_strength).max()
+        assert report["given_orientation"]["critical_rate"] == pytest.approx(1e5 / ratio, rel=1e-9)
+
+    def test_the_failing_contact_reaches_its_strength_at_the_critical_rate(self, run, small):
+        _, out, _ = run("stress", small, "--unit", "um", "--rate", 10, "--json")
+        for orientation in ("given_orientation", "worst_orientation"):
+            failure = json.loads(out)[orientation]
+            arguments = ["--gradient", " ".join(map(str, np.ravel(failure["flow_gradient_per_s"])))]
+            _, again, _ = run("stress", small, "--unit", "um", *arguments, "--json")
+            at_failure = json.loads(again)
+            assert at_failure["largest"]["tension"] == pytest.approx(failure["pull_off_force"], rel=1e-9)
+
+    def test_writes_every_result(self, run, small, tmp_path):
+        folder = tmp_path / "results"
+        status, out, _ = run("stress", small, "--unit", "um", "--rate", 10, "--output", folder)
+        assert status == 0
+        assert sorted(path.name for path in folder.iterdir()) == sorted(FILES)
+        assert all(name in out for name in FILES)
+        assert [row["i"] + row["j"] for row in rows(folder / "contacts.csv")] == ["01", "12", "23"]
+        assert (folder / "aggregate.png").read_bytes().startswith(b"\x89PNG")
+
+    @pytest.mark.parametrize("name", ["spheres.csv", "aggregate.xyz"])
+    def test_written_spheres_can_be_analysed_again(self, run, small, tmp_path, name):
+        run("stress", small, "--unit", "um", "--output", tmp_path / "results")
+        _, first, _ = run("stress", small, "--unit", "um", "--json")
+        _, second, _ = run("stress", tmp_path / "results" / name, "--json")
+        assert json.loads(first)["largest"]["tension"] == pytest.approx(
+            json.loads(second)["largest"]["tension"], rel=1e-9
+        )
+
+    def test_sphere_table_balances(self, run, small, tmp_path):
+        run("stress", small, "--unit", "um", "--rate", 10, "--output", tmp_path / "results")
+        force = np.array(
+            [[float(row[f"force_N_{k}"]) for k in "xyz"] for row in rows(tmp_path / "results/spheres.csv")]
+        )
+        np.testing.assert_allclose(force.sum(axis=0), 0, atol=1e-12 * np.abs(force).max())
+
+    def test_dimensionless_results_do_not_depend_on_units(self, run, small):
+        one = run("stress", small, "--unit", "um", "--rate", 10, "--dimensionless", "--json")[1]
+        two = run("stress", small, "--unit", "nm", "--rate", 300, "--viscosity", 2, "--dimensionless", "--json")[1]
+        one, two = json.loads(one), json.loads(two)
+        for load in ("tension", "compression", "shear", "bending"):
+            assert one["largest"][load] == pytest.approx(two["largest"][load], rel=1e-9)
+        for orientation in ("given_orientation", "worst_orientation"):
+            assert one[orientation]["critical_rate"] == pytest.approx(two[orientation]["critical_rate"], rel=1e-9)
+
+    def test_dimensionless_doublet(self, run, tmp_path):
+        """The tension of a doublet is 35.903916 μa² per axial strain rate, and e_nn is the extension rate along z."""
+        path = tmp_path / "doublet.dat"
+        path.write_text("0 0 0 3\n0 0 6 3\n")
+        _, out, _ = run("stress", path, "--unit", "nm", "--flow", "uniaxial", "--rate", 7, "--dimensionless", "--json")
+        report = json.loads(out)
+        assert report["largest"]["tension"] == pytest.approx(35.903916, rel=1e-7)
+        assert report["given_orientation"]["critical_rate"] == pytest.approx(1 / 35.903916, rel=1e-7)
+
+    def test_options_of_the_contacts(self, run, small):
+        def critical(*arguments):
+            return json.loads(run("stress", small, "--unit", "um", *arguments, "--json")[1])["given_orientation"]
+
+        assert critical("--pull-off", 1e-9)["pull_off_force"] == pytest.approx(1e-9)
+        assert critical("--work-of-adhesion", 0.04)["critical_rate"] == pytest.approx(2 * critical()["critical_rate"])
+        stiff = critical("--stiffness", 1, 1, 1e-13, 1e-13, "--pull-off", 1e-9)
+        assert stiff["critical_rate"] == pytest.approx(critical("--pull-off", 1e-9)["critical_rate"])
+
+    def test_free_draining(self, run, small):
+        _, out, _ = run("stress", small, "--unit", "um", "--model", "free-draining", "--json")
+        assert json.loads(out)["model"] == {"name": "FreeDraining", "order": None, "viscosity_Pa_s": 1e-3}
+
+    def test_compressed_doublet_does_not_fail(self, run, tmp_path):
+        path = tmp_path / "doublet.dat"
+        path.write_text("0 0 0 1\n2 0 0 1\n")
+        status, out, _ = run("stress", path, "--unit", "um", "--flow", "uniaxial")
+        assert status == 0
+        assert "no contact is pulled apart" in out
+
+
+class TestRefusals:
+    @pytest.mark.parametrize(
+        ("content", "message"),
+        [
+            ("0 0 0 1\n1.5 0 0 1\n", r"spheres 0 and 1 overlap: distance 1.5e-06 < 2e-06 = sum of radii; shrink"),
+            ("0 0 0 1\n5 0 0 1\n", r"in 2 parts, expected one: sphere 0 .* gap of 3 mean radii; raise"),
+            ("0 0 0 1\n", r"single sphere and has no contact; expected at least two"),
+            ("0 0 0 1\nnan 0 0 1\n", r"line 2: expected a finite number, got 'nan'"),
+            ("0 0 0 1\n2 0 0 0\n", r"line 2: .*positive.*0"),
+            ("0 0 0 1\n0 0 0 1\n", r"spheres 0 and 1 are at the same place .*; remove the duplicate"),
+            ("", r"empty file"),
+            ("0 0 0 1\n2 0\n", r"line 2: expected 4 .*got 2"),
+        ],
+    )
+    def test_bad_file(self, run, tmp_path, content, message):
+        path, folder = tmp_path / "bad.dat", tmp_path / "results"
+        path.write_text(content)
+        status, out, err = run("stress", path, "--unit", "um", "--output", folder)
+        assert (status, out) == (1, "")
+        assert err.count("\n") == 1
+        assert err.startswith("error: ")
+        assert not folder.exists()
+        assert re.search(message, err), err
+
+    @pytest.mark.parametrize(
+        ("arguments", "message"),
+        [
+            (["--gradient", "1 0 0 0 0 0 0 0 0"], "expected zero trace (an incompressible flow), got 1"),
+            (["--gradient", "1 2 3"], "--gradient: expected nine numbers, got 3"),
+            (["--gradient", "a"], "--gradient: expected nine numbers, got 'a'"),
+            (["--rate", "-1"], "rate: expected zero or a positive number, got -1"),
+            (["--viscosity", "0"], "viscosity: expected a positive number, got 0"),
+            (["--material", "gold"], "--material: expected one of polystyrene, got 'gold'"),
+            (["--order", "0"], "order: expected an integer of at least 1, got 0"),
+            (["--stiffness", "1", "1", "1", "1"], "add --pull-off"),
+            (["--pull-off", "-1"], "force: expected a positive number, got -1"),
+            (["--unit", "parsec"], "parsec"),
+            (["--rate", "0", "--dimensionless"], "--dimensionless: expected a positive rate to scale with, got 0"),
+        ],
+    )
+    def test_bad_option(self, run, small, arguments, message):
+        status, out, err = run("stress", small, "--unit", "um", *arguments)
+        assert (status, out) == (1, "")
+        assert err.count("\n") == 1
+        assert message in err
+
+    def test_missing_output_folder(self, run, small, tmp_path):
+        status, _, err = run("stress", small, "--output", tmp_path / "missing" / "results")
+        assert status == 1
+        assert f"the folder {tmp_path / 'missing'} does not exist; create it first" in err
+
+    def test_existing_output_is_kept(self, run, small, tmp_path):
+        (tmp_path / "summary.json").write_text("mine")
+        status, _, err = run("stress", small, "--unit", "um", "--output", tmp_path)
+        assert status == 1
+        assert "summary.json already there; add --overwrite to replace" in err
+        assert (tmp_path / "summary.json").read_text() == "mine"
+        assert run("stress", small, "--unit", "um", "--output", tmp_path, "--overwrite")[0] == 0
+        assert json.loads((tmp_path / "summary.json").read_text())["aggregate"]["spheres"] == 4
+
+    def test_output_that_is_a_file(self, run, small):
+        status, _, err = run("stress", small, "--output", small)
+        assert status == 1
+        assert "expected a folder, got a file" in err
+
+    def test_forgotten_unit_is_warned_of_once(self, run, small):
+        status, _, err = run("stress", small)
+        assert status == 0
+        assert err.count("warning: ") == 1
+        assert "radii up to 1 m exceed 1 mm: is the unit of length right?" in err
+
+    def test_thick_liquid_is_warned_of(self, run, small):
+        assert "viscosity 1e+04 Pa s exceeds 1000 Pa s" in run("stress", small, "--unit", "um", "--viscosity", 1e4)[2]
+
+    def test_debug_shows_the_traceback(self, small):
+        with pytest.raises(ValueError, match="expected nine numbers"):
+            main(["stress", str(small), "--gradient", "1", "--debug"])
+
+
+class TestOtherCommands:
+    def test_info(self, run):
+        status, out, _ = run("info", EQUAL, "--unit", "nm", "--json")
+        report = json.loads(out)
+        assert status == 0
+        # The generator's header gives Rg of point masses; the spheres' own 3/5 a² adds 0.07 %.
+        assert report["radius_of_gyration"] == pytest.approx(
+            np.hypot(10276.532895978327e-9, np.sqrt(0.6) * 500e-9), rel=2e-3
+        )
+        assert report["mean_coordination"] == pytest.approx(2 * 299 / 300)
+        assert 0.5 < report["hydrodynamic_radius"] / report["radius_of_gyration"] < 1.3
+
+    def test_info_on_one_sphere(self, run, tmp_path):
+        path = tmp_path / "one.dat"
+        path.write_text("1 2 3 0.5\n")
+        status, out, _ = run("info", path, "--unit", "um", "--dimensionless", "--json")
+        report = json.loads(out)
+        assert status == 0
+        assert report["hydrodynamic_radius"] == pytest.approx(1)
+        assert report["intrinsic_viscosity"] == pytest.approx(2.5)
+
+    def test_info_on_screen(self, run):
+        out = run("info", POLYDISPERSE, "--unit", "nm")[1]
+        assert "isostatic (tree), hyperstaticity 0" in out
+        assert "nm" in out
+
+    def test_demo(self, run, tmp_path):
+        status, out, _ = run("demo", "--output", tmp_path / "demo")
+        assert status == 0
+        assert (tmp_path / "demo" / "aggregate.png").exists()
+        assert "rheoclast stress FILE" in out
+
+    def test_version(self, run):
+        assert run("--version")[1].strip() == f"rheoclast {rc.__version__}"
+
+    @pytest.mark.parametrize("command", ["stress", "info", "demo"])
+    def test_help_has_an_example(self, run, command):
+        status, out, _ = run(command, "--help")
+        assert status == 0
+        assert f"rheoclast {command}" in out.split("Example:")[1]
+
+    def test_module_is_the_command(self, small):
+        command = [sys.executable, "-m", "rheoclast", "stress", str(small), "--unit", "um", "--json"]
+        done = subprocess.run(command, capture_output=True, text=True, check=True)
+        assert json.loads(done.stdout)["aggregate"]["contacts"] == 3
+
+
+class TestProgress:
+    def test_silent_when_quick(self, capsys):
+        with progress_bar() as progress:
+            progress("pair mobilities", 0.5)
+        assert capsys.readouterr() == ("", "")
+
+    def test_speaks_when_long(self, capsys, monkeypatch):
+        monkeypatch.setattr("rheoclast.cli.console.SECONDS_WITHOUT_PROGRESS", 0.05)
+        monkeypatch.setattr("rheoclast.cli.console.messages", Console(stderr=True, force_terminal=True))
+        with progress_bar() as progress:
+            progress("pair mobilities", 0.5)
+            sleep(0.5)
+        captured = capsys.readouterr()
+        assert "pair mobilities" in captured.err
+        assert captured.out == ""

@@ -1,0 +1,242 @@
+"""The composed picture."""
+
+import subprocess
+import sys
+from io import BytesIO
+
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from scipy.spatial.transform import Rotation
+
+from rheoclast import Aggregate, LinearFlow, Spheres, simple_shear, uniaxial_extension
+from rheoclast.view import draw, save
+from rheoclast.view.colours import ColourScale
+
+RADIUS = 5e-7
+
+
+def touching(centers):
+    return Aggregate.touching(Spheres(RADIUS * np.asarray(centers, dtype=float), RADIUS))
+
+
+def grown(count, seed=1):
+    """Random tree of touching spheres."""
+    rng = np.random.default_rng(seed)
+    centers = np.zeros((1, 3))
+    while len(centers) < count:
+        step = rng.normal(size=3)
+        new = centers[rng.integers(max(0, len(centers) - 30), len(centers))] + 2 * step / np.linalg.norm(step)
+        if np.linalg.norm(centers - new, axis=1).min() > 2 - 1e-9:
+            centers = np.vstack([centers, new])
+    return touching(centers)
+
+
+BENT = touching([[0, 0, 0], [2, 0, 0], [4, 0, 0], [6, 0, 0], [6, 2, 0], [6, 2, 2]])
+BENT_VALUES = 1e-9 * np.array([1.0, -2, 3, -1, 0.5])
+
+
+def pixels(figure):
+    """(H, W, 3) from 0 to 1, row 0 at the top."""
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    return np.asarray(canvas.buffer_rgba())[..., :3] / 255
+
+
+def texts(figure):
+    return [text.get_text() for text in figure.findobj(lambda artist: hasattr(artist, "get_text"))]
+
+
+def spheres_part(figure):
+    image = pixels(figure)
+    return image[: round(image.shape[0] * (1 - figure.axes[0].get_position().y0))]
+
+
+def test_picture_is_not_blank_and_its_border_is_white():
+    image = pixels(draw(BENT, BENT_VALUES, flow=simple_shear(1.0), critical=2, title="Bent"))
+    assert (image < 0.95).any(axis=2).mean() > 0.1
+    assert all((edge == 1).all() for edge in (image[0], image[-1], image[:, 0], image[:, -1]))
+
+
+@pytest.mark.parametrize("dots_per_inch", [100, 160, 173.3])
+def test_image_is_shown_pixel_for_pixel(dots_per_inch):
+    figure = draw(BENT, title="Bent", dots_per_inch=dots_per_inch)
+    shown = spheres_part(figure)
+    shown = shown[-figure.axes[0].images[0].get_array().shape[0] :]
+    image = np.asarray(figure.axes[0].images[0].get_array())[::-1]
+    assert image.shape[1] == shown.shape[1]
+    expected = image[..., :3] * image[..., 3:] + 1 - image[..., 3:]
+    assert np.abs(shown - expected).max() < 0.02
+
+
+@pytest.mark.parametrize(("value", "sign"), [(1e-9, 1), (-1e-9, -1)])
+def test_tension_is_red_and_compression_blue(value, sign):
+    image = spheres_part(draw(touching([[0, 0, 0], [2, 0, 0]]), [value]))
+    colour = image[..., 0] - image[..., 2]
+    assert sign * colour.sum() > 1000
+    assert (sign * colour).max() > 0.4
+
+
+def test_without_values_the_spheres_are_grey():
+    image = pixels(draw(BENT))
+    assert np.ptp(image, axis=2).max() < 0.1
+    assert (image < 0.95).any()
+
+
+def test_larger_loads_are_more_vivid():
+    scale = ColourScale(np.array([1.0]))
+    vividness = np.ptp(scale(np.array([0.0, 0.25, 0.5])), axis=1)
+    assert (np.diff(vividness) > 0.1).all()
+    assert vividness[0] < 0.05
+
+
+@pytest.mark.parametrize(
+    ("values", "extend"), [([-3.0, 1], "neither"), ([*np.linspace(-1, 1, 99), 9], "max"), ([0, 0], "neither")]
+)
+def test_colour_scale_is_symmetric(values, extend):
+    scale = ColourScale(np.array(values))
+    assert scale.norm.vmin == -scale.norm.vmax
+    assert scale(np.array([0.0]))[0] == pytest.approx([0.89, 0.9, 0.91], abs=0.02)
+    assert scale.extend == extend
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_picture_does_not_change_when_aggregate_and_view_turn_together(seed):
+    rotation = Rotation.random(rng=np.random.default_rng(seed))
+    turned = touching(rotation.apply(BENT.spheres.centers) / RADIUS + [0, 0, 40])
+    before, after = (spheres_part(draw(body, BENT_VALUES)) for body in (BENT, turned))
+    assert before.shape == after.shape
+    assert np.abs(before - after).mean() < 1e-3
+
+
+def test_picture_does_not_change_when_aggregate_and_given_view_turn_about_z():
+    rotation = Rotation.from_rotvec([0, 0, 0.7])
+    turned = touching(rotation.apply(BENT.spheres.centers) / RADIUS)
+    direction = np.array([1.0, -2, 0.5])
+    before = spheres_part(draw(BENT, BENT_VALUES, view_direction=direction))
+    after = spheres_part(draw(turned, BENT_VALUES, view_direction=rotation.apply(direction)))
+    assert before.shape == after.shape
+    assert np.abs(before - after).mean() < 1e-3
+
+
+def test_picture_of_300_spheres_is_a_small_file(tmp_path):
+    aggregate = grown(300)
+    values = 1e-9 * np.random.default_rng(0).normal(size=len(aggregate.pairs))
+    path = tmp_path / "cluster.png"
+    save(draw(aggregate, values, flow=uniaxial_extension(10), critical=5), path)
+    assert 20_000 < path.stat().st_size < 300_000
+
+
+def test_picture_is_written_to_open_files_and_as_pdf(tmp_path):
+    figure = draw(BENT, BENT_VALUES)
+    stream = BytesIO()
+    save(figure, stream)
+    assert stream.getvalue().startswith(b"\x89PNG")
+    save(figure, tmp_path / "bent.pdf")
+    assert (tmp_path / "bent.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_labels_have_prefixed_units():
+    shown = texts(draw(BENT, BENT_VALUES, critical=2))
+    assert "tension (nN)" in shown
+    assert "critical contact: 3 nN" in shown
+    assert "1 µm" in shown
+
+
+def test_dimensionless_labels_have_no_units():
+    aggregate = Aggregate.touching(Spheres(np.array([[0.0, 0, 0], [2, 0, 0]]), 1.0))
+    shown = texts(draw(aggregate, [0.5], quantity="tension / μGa²", unit=None, length_unit=None, critical=0))
+    assert {"tension / μGa²", "critical contact: 0.5", "1"} <= set(shown)
+
+
+def test_scale_bar_is_as_long_as_it_says():
+    figure = draw(BENT)
+    bar = next(axes for axes in figure.axes if "1 µm" in [text.get_text() for text in axes.texts])
+    (line,) = bar.lines
+    left, right = bar.transData.transform(np.column_stack([line.get_xdata(), [0, 0]]))[:, 0]
+    covered = np.flatnonzero((spheres_part(figure) < 0.98).any(axis=(0, 2)))
+    assert right - left == pytest.approx(np.ptp(covered) / 8, rel=0.02)
+
+
+@pytest.mark.parametrize("critical", [0, 4])
+@pytest.mark.parametrize("size", [(4.5, 2.5), (6.4, 5.6)])
+@pytest.mark.parametrize("body", ["bent", "cluster"])
+def test_no_text_is_cut_off(critical, size, body):
+    aggregate = BENT if body == "bent" else grown(60)
+    values = 1e-9 * np.cos(np.arange(len(aggregate.pairs)))
+    figure = draw(aggregate, values, flow=simple_shear(1.0), critical=critical, size=size, title="Title")
+    width, height = FigureCanvasAgg(figure).get_width_height()
+    for text in figure.findobj(lambda artist: hasattr(artist, "get_window_extent") and hasattr(artist, "get_text")):
+        if text.get_text() and text.get_visible():
+            box = text.get_window_extent()
+            assert box.x0 >= 0
+            assert box.y0 >= 0
+            assert box.x1 <= width
+            assert box.y1 <= height
+
+
+def test_hidden_critical_contact_is_said_to_be_hidden():
+    behind = touching([[0, 0, 0], [2, 0, 0], [1, 0, np.sqrt(3)], [1, 0, 2 + np.sqrt(3)]])
+    contact = behind.pairs.tolist().index([2, 3])
+    assert "critical contact (hidden)" in texts(draw(behind, critical=contact, view_direction=(0, 0, 1)))
+    assert "critical contact" in texts(draw(behind, critical=contact, view_direction=(0, 1, 0)))
+
+
+def arrows(figure):
+    """Start and end (x, y) of the arrows of the flow."""
+    axes = next(axes for axes in figure.axes if "flow" in [text.get_text() for text in axes.texts])
+    return [(np.array(text.xyann), np.array(text.xy)) for text in axes.texts if hasattr(text, "xyann")]
+
+
+def test_flow_arrows_point_outwards_in_extension_and_inwards_in_compression():
+    ends = arrows(draw(BENT, flow=simple_shear(2.0), view_direction=(0, 0, 1)))
+    assert len(ends) == 4
+    for start, end in ends:
+        outwards = np.linalg.norm(end) > np.linalg.norm(start)
+        assert outwards == (end[0] * end[1] > 0)
+        assert abs(end[0]) == pytest.approx(abs(end[1]), rel=1e-3)
+
+
+@pytest.mark.parametrize("gradient", [np.zeros((3, 3)), np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 0]])])
+def test_flow_without_strain_has_no_arrows(gradient):
+    assert arrows(draw(BENT, flow=LinearFlow(gradient))) == []
+
+
+def test_single_sphere_has_a_picture():
+    assert (pixels(draw(touching([[0, 0, 0]]), [])) < 0.95).any()
+
+
+def test_flat_aggregates_have_flat_pictures():
+    chain = touching([[2 * k, 0, 0] for k in range(8)])
+    assert draw(chain).get_figheight() < 0.5 * draw(grown(60)).get_figheight()
+    assert draw(grown(60)).get_figheight() <= 5.6 + 0.02
+
+
+def test_importing_the_package_does_not_import_matplotlib():
+    code = "import sys, rheoclast.view; sys.exit('matplotlib' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"contact_values": [1.0, 2]}, r"^contact_values: expected one per contact \(5\), got 2$"),
+        ({"contact_values": [1, 2, np.nan, 4, 5]}, r"^contact_values\[2\]: expected a finite number, got nan$"),
+        ({"contact_values": [[1.0]]}, r"^contact_values: expected shape \(C,\), got \(1, 1\)$"),
+        ({"critical": 5}, r"^critical: expected the index of a contact from 0 to 4, got 5$"),
+        ({"critical": -1}, r"^critical: expected the index of a contact from 0 to 4, got -1$"),
+        ({"critical": 1.0}, r"^critical: expected the index of a contact from 0 to 4, got 1\.0$"),
+        ({"critical": True}, r"^critical: expected the index of a contact from 0 to 4, got True$"),
+        ({"size": (2.0, 5.0)}, r"^size: expected at least 4\.5 by 2\.5 inches, got 2 by 5$"),
+        ({"dots_per_inch": 0}, r"^dots_per_inch: expected a positive number, got 0$"),
+        ({"view_direction": (0, 0)}, r"^view_direction: expected shape \(3,\), got \(2,\)$"),
+    ],
+)
+def test_wrong_input_is_refused_in_one_sentence(arguments, message):
+    with pytest.raises(ValueError, match=message):
+        draw(BENT, **arguments)
+
+
+def test_critical_contact_of_a_single_sphere_is_refused():
+    with pytest.raises(ValueError, match=r"^critical: expected None, as there are no contacts, got 0$"):
+        draw(touching([[0, 0, 0]]), critical=0)
