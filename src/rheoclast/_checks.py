@@ -14,7 +14,9 @@ FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
 
 
-def real_array(name: str, value: ArrayLike, shape: tuple[int | str, ...]) -> FloatArray:
+def real_array(
+    name: str, value: ArrayLike, shape: tuple[int | str, ...], *, infinite_allowed: bool = False
+) -> FloatArray:
     """Read-only float array of a given shape with finite entries.
 
     A string in `shape` stands for any length and names it in the message; the first axis counts the items.
@@ -28,16 +30,18 @@ def real_array(name: str, value: ArrayLike, shape: tuple[int | str, ...]) -> Flo
     )
     if not fits:
         raise ValueError(f"{name}: expected shape {_shown(shape)}, got {_shown(array.shape)}")
-    bad = np.argwhere(~np.isfinite(array))
+    bad = np.argwhere(np.isnan(array) if infinite_allowed else ~np.isfinite(array))
     if len(bad):
         index = tuple(int(k) for k in bad[0])
         raise ValueError(f"{name}{list(index) if index else ''}: expected a finite number, got {array[index]}")
     return frozen(array)
 
 
-def positive_array(name: str, value: ArrayLike, shape: tuple[int | str, ...]) -> FloatArray:
+def positive_array(
+    name: str, value: ArrayLike, shape: tuple[int | str, ...], *, infinite_allowed: bool = False
+) -> FloatArray:
     """Like `real_array`, every entry greater than zero."""
-    array = real_array(name, value, shape)
+    array = real_array(name, value, shape, infinite_allowed=infinite_allowed)
     bad = np.argwhere(array <= 0)
     if len(bad):
         index = tuple(int(k) for k in bad[0])

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from rheoclast._checks import FloatArray, real_array
 
 
@@ -23,7 +25,6 @@ class SphereLoads:
     torque: FloatArray
 
     def __post_init__(self) -> None:
-        batch = tuple(getattr(self.force, "shape", ())[:-2])
-        force = real_array("force", self.force, (*batch, "N", 3))
+        force = real_array("force", self.force, (*np.shape(self.force)[:-2], "N", 3))
         object.__setattr__(self, "force", force)
         object.__setattr__(self, "torque", real_array("torque", self.torque, force.shape))

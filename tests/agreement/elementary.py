@@ -56,8 +56,8 @@ class Elementary:
     def hydrodynamic_radius(self):
         """1/(6π mean translational mobility) at the centre of mobility: the point where that mean is least.
 
-        The mean translational mobility at a point is a quadratic function of the point (Brenner 1967: the centre
-        of diffusion minimizes it), so differences of unit step give its gradient and curvature exactly.
+        The mean translational mobility at a point is a quadratic function of the point, so differences of unit step
+        give its gradient and curvature exactly; it is least where the coupling to rotation is symmetric.
         """
         mobility = np.linalg.inv(self.grand_resistance[:6, :6])
 

@@ -42,7 +42,11 @@ def harmonic(degree, order, directions):
     around_slope = m * (x + 1j * y) ** (m - 1) if m else np.zeros_like(around)
     value = norm * part(around) * along_axis(z)
     gradient = norm * np.stack(
-        [part(around_slope) * along_axis(z), part(1j * around_slope) * along_axis(z), part(around) * along_axis.deriv()(z)],
+        [
+            part(around_slope) * along_axis(z),
+            part(1j * around_slope) * along_axis(z),
+            part(around) * along_axis.deriv()(z),
+        ],
         axis=-1,
     )
     return value, gradient - directions * np.sum(gradient * directions, axis=-1, keepdims=True)

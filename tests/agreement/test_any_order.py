@@ -1,8 +1,9 @@
 """Stokesian dynamics of orders 1 to 4 ↔ Galerkin projection by quadrature over the spheres' surfaces.
 
 Each pair is integrated over its smaller sphere, which sees the other's centre at two of its radii or more, so that the
-quadrature errs like 2^(−2 nodes) times a power of the nodes. Against 60 nodes, the loads at order 4 of the worst cluster
-here move by 5e-5 with 10 nodes, 1e-9 with 20, 2e-14 with 30. With 40 the routes must meet to 1e-10 of the largest load.
+quadrature errs like 2^(−2 nodes) times a power of the nodes. Against 60 nodes, the loads at order 4 of the worst
+cluster here move by 5e-5 with 10 nodes, 1e-9 with 20, 2e-14 with 30. With 40 the routes must meet to
+1e-10 of the largest load.
 """
 
 from math import pi
@@ -81,7 +82,19 @@ def test_scalars(routes):
     assert response.intrinsic_viscosity == pytest.approx(reference.intrinsic_viscosity(radii), rel=1e-10)
 
 
-def test_settling_of_a_bent_trimer_at_order_one_by_hand():
+@pytest.mark.parametrize("order", [6, 9])
+@pytest.mark.parametrize("name", ["turned doublet", "unequal doublet"])
+def test_high_orders(name, order):
+    """The same at orders whose modes nobody writes out (107 and above per sphere)."""
+    centers, radii = CLUSTERS[name]
+    operator = projection.grand_operator(order, centers, radii, nodes=40)
+    reference = eleven_problems(operator, projection.probes(order, radii), centers, radii)
+    response = rc.rigid_response(rc.Spheres(centers, radii), rc.StokesianDynamics(order=order), viscosity=1.0)
+    close(response.table, reference.table)
+    close(response.grand_resistance, reference.grand_resistance)
+
+
+def test_resistance_of_a_bent_trimer_at_order_one_by_hand():
     """Order 1 is the Rotne–Prager level: mobility δ/6π on a sphere, (1 + ∇²/3) G / 8π between equal ones.
 
     With r = 2: 1/8πr [(1 + 2/3r²) 1 + (1 − 2/r²) r̂r̂]. Forces on a rigid body solve the 9 × 9 system.
@@ -95,7 +108,9 @@ def test_settling_of_a_bent_trimer_at_order_one_by_hand():
             pair = (1 + 2 / (3 * r**2)) * np.eye(3) + (1 - 2 / r**2) * np.outer(vector, vector) / r**2 if i != j else 0
             mobility[i, :, j] = np.eye(3) / (6 * pi) if i == j else pair / (8 * pi * r)
     offsets = centers - centers.mean(axis=0)
-    motion = np.concatenate([np.tile(np.eye(3), (3, 1)), np.vstack([np.cross(np.eye(3), d).T for d in offsets])], axis=1)
+    motion = np.concatenate(
+        [np.tile(np.eye(3), (3, 1)), np.vstack([np.cross(np.eye(3), d).T for d in offsets])], axis=1
+    )
     resistance = motion.T @ np.linalg.solve(mobility.reshape(9, 9), motion)
     response = rc.rigid_response(rc.Spheres(centers, radii), rc.StokesianDynamics(order=1), viscosity=1.0)
     close(response.resistance, resistance)

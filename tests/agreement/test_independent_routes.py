@@ -63,7 +63,7 @@ def test_laplacian_tensors_are_traces_of_higher_derivatives():
 def single_layers(points, tractions, radius, nodes):
     """Velocities (K, P, 3) of tractions (K, Q, 3) on a sphere at the origin, by the Oseen surface integral itself.
 
-    `tractions` is a function of the directions (Q, 3). At s radii from the centre the quadrature errs like s^(−2 nodes).
+    `tractions` is a function of the directions (Q, 3). At s radii from the centre they err like s^(−2 nodes).
     """
     directions, weights = projection.sphere_quadrature(nodes)
     kernel = oseen(points[:, None] - radius * directions)
@@ -166,7 +166,9 @@ def test_faxen_route_gives_the_published_doublet():
     doublet = eleven_problems(faxen.grand_mobility(DOUBLET, np.ones(2)), faxen.probes(2), DOUBLET, np.ones(2))
     grand, expected = doublet.grand_resistance, REFERENCE["order_2"]
     axial, transverse = np.diag([-0.5, -0.5, 1]), np.array([[0, 0, 1], [0, 0, 0], [1.0, 0, 0]])
-    axial_load, transverse_load = (doublet.table @ (STRAIN_BASIS.reshape(5, 9) @ e.ravel()) for e in (axial, transverse))
+    axial_load, transverse_load = (
+        doublet.table @ (STRAIN_BASIS.reshape(5, 9) @ e.ravel()) for e in (axial, transverse)
+    )
     spin = np.einsum("ijk,jk->i", doublet.couplings[1], transverse)[1]
     ours = {
         "X_drag": grand[2, 2] / (12 * pi),

@@ -67,7 +67,9 @@ def test_table_and_strain_loads(routes):
 
 def ambient_at_center(response, gradient):
     """Velocity, angular velocity and strain components of the flow at the centre, (11,)."""
-    spin = 0.5 * np.array([gradient[2, 1] - gradient[1, 2], gradient[0, 2] - gradient[2, 0], gradient[1, 0] - gradient[0, 1]])
+    spin = 0.5 * np.array(
+        [gradient[2, 1] - gradient[1, 2], gradient[0, 2] - gradient[2, 0], gradient[1, 0] - gradient[0, 1]]
+    )
     strain = rc.vectors.strain_components((gradient + gradient.T) / 2)
     return np.concatenate([gradient @ response.center, spin, strain])
 

@@ -8,7 +8,7 @@ import pytest
 import rheoclast as rc
 from rheoclast.vectors import STRAIN_BASIS
 
-VISCOSITY = 1.3
+VISCOSITY = 1.0
 CENTERS = np.array([[1.0, 2.0, -1.0], [3.0, 2.0, -1.0], [3.0, 3.2, 0.6]])
 RADII = np.array([1.2, 0.8, 1.2])
 GRADIENT = np.array([[0.3, 1.1, -0.4], [0.2, -0.9, 0.7], [-1.3, 0.5, 0.6]])
@@ -23,7 +23,9 @@ def response():
 
 
 def spin(gradient):
-    return 0.5 * np.array([gradient[2, 1] - gradient[1, 2], gradient[0, 2] - gradient[2, 0], gradient[1, 0] - gradient[0, 1]])
+    return 0.5 * np.array(
+        [gradient[2, 1] - gradient[1, 2], gradient[0, 2] - gradient[2, 0], gradient[1, 0] - gradient[0, 1]]
+    )
 
 
 def test_held(response):
@@ -41,7 +43,9 @@ def by_hand():
     """
     center = DRAG @ CENTERS / DRAG.sum()
     y = CENTERS - center
-    inertia = sum(d * (r @ r * np.eye(3) - np.outer(r, r)) for d, r in zip(DRAG, y, strict=True)) + TWIST.sum() * np.eye(3)
+    inertia = sum(
+        d * (r @ r * np.eye(3) - np.outer(r, r)) for d, r in zip(DRAG, y, strict=True)
+    ) + TWIST.sum() * np.eye(3)
     turning = TWIST.sum() * spin(GRADIENT) + np.einsum("n,ni->i", DRAG, np.cross(y, y @ GRADIENT.T))
     return GRADIENT @ center, center, np.linalg.solve(inertia, turning)
 
@@ -50,7 +54,9 @@ def test_motion(response):
     velocity, center, angular_velocity = by_hand()
     motion = response.motion(FLOW)
     np.testing.assert_allclose(motion.angular_velocity, angular_velocity, rtol=1e-12)
-    np.testing.assert_allclose(motion.velocity, velocity + np.cross(angular_velocity, response.center - center), rtol=1e-12)
+    np.testing.assert_allclose(
+        motion.velocity, velocity + np.cross(angular_velocity, response.center - center), rtol=1e-12
+    )
 
 
 def test_free_loads(response):
@@ -87,7 +93,9 @@ def test_settling(response):
     force = np.array([0.5, 1.0, -2.0])
     drag_center = by_hand()[1]
     y = CENTERS - drag_center
-    inertia = sum(d * (r @ r * np.eye(3) - np.outer(r, r)) for d, r in zip(DRAG, y, strict=True)) + TWIST.sum() * np.eye(3)
+    inertia = sum(
+        d * (r @ r * np.eye(3) - np.outer(r, r)) for d, r in zip(DRAG, y, strict=True)
+    ) + TWIST.sum() * np.eye(3)
     turning = np.linalg.solve(inertia, np.cross(response.center - drag_center, force))
     settling = response.settling(force)
     expected = force / DRAG.sum() + np.cross(turning, response.center - drag_center)

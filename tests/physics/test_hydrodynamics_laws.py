@@ -105,7 +105,10 @@ class TestReciprocityAndDissipation:
     def test_resistance_grows_with_order(self, cluster):
         """Order p is the largest dissipation its modes allow, and order p + 1 has all its modes and more."""
         for order in (1, 2, 3):
-            step = respond(cluster, f"order {order + 1}").grand_resistance - respond(cluster, f"order {order}").grand_resistance
+            step = (
+                respond(cluster, f"order {order + 1}").grand_resistance
+                - respond(cluster, f"order {order}").grand_resistance
+            )
             assert np.linalg.eigvalsh(step).min() > 0
 
     def test_more_spheres_resist_more(self, cluster):
@@ -247,10 +250,16 @@ class TestInvariance:
         """μ = 1e-3 Pa s, lengths times 1e-6, rates times 1e5: force μ ℓ² γ, torque μ ℓ³ γ, resistances by dimension."""
         viscosity, length, rate = 1e-3, 1e-6, 1e5
         spheres, here = SPHERES[cluster], respond(cluster, model)
-        small = rc.rigid_response(rc.Spheres(length * spheres.centers, length * spheres.radii), MODELS[model], viscosity=viscosity)
+        small = rc.rigid_response(
+            rc.Spheres(length * spheres.centers, length * spheres.radii), MODELS[model], viscosity=viscosity
+        )
         old, new = here.loads(FLOW), small.loads(rc.LinearFlow(rate * GRADIENT))
         close(new.force, viscosity * length**2 * rate * old.force)
-        close(new.torque, viscosity * length**3 * rate * old.torque, scale=viscosity * length**3 * rate * np.abs(old.force).max())
+        close(
+            new.torque,
+            viscosity * length**3 * rate * old.torque,
+            scale=viscosity * length**3 * rate * np.abs(old.force).max(),
+        )
         power = length ** np.repeat([0, 1], [3, 8])
         expected = viscosity * length * np.outer(power, power) * here.grand_resistance
         scale = np.sqrt(np.outer(np.diag(expected), np.diag(expected)))
@@ -270,7 +279,9 @@ class TestInvariance:
     def test_numbering_of_spheres(self, cluster, model):
         spheres, here = SPHERES[cluster], respond(cluster, model)
         shuffled = np.random.default_rng(5).permutation(len(spheres))
-        there = rc.rigid_response(rc.Spheres(spheres.centers[shuffled], spheres.radii[shuffled]), MODELS[model], viscosity=1.0)
+        there = rc.rigid_response(
+            rc.Spheres(spheres.centers[shuffled], spheres.radii[shuffled]), MODELS[model], viscosity=1.0
+        )
         close(there.table, here.table[shuffled])
         close(there.grand_resistance, here.grand_resistance)
 

@@ -1,8 +1,8 @@
 """No slip, as the Galerkin method of order 2 defines it: over every sphere's surface the fluid moves with the sphere.
 
 The package says which force and torque each sphere bears. Here its traction is F/4πa² + 3 L×n/8πa³ + 3 S·n/4πa³, with
-the stressles S that nothing in the package shows found from the condition that no sphere is strained on average. Then the
-disturbance plus the ambient flow must average to the sphere's velocity and spin, which the loads did not know about.
+the stresslets S, which nothing in the package shows, found from the condition that no sphere is strained on average.
+Then the disturbance plus the ambient flow must average to the sphere's velocity and spin: that is left to test.
 """
 
 from functools import cache
@@ -16,7 +16,7 @@ from rheoclast.vectors import STRAIN_BASIS, strain_components
 
 CENTERS = np.array([[0.3, -0.7, 1.1], [2.3, -0.7, 1.1], [2.3, 0.86, 2.27], [0.3, -0.7, -0.4]])
 SPHERES = {
-    "trimer": rc.Spheres(CENTERS[:3] - np.array([0.0, 0, 0]), np.array([1.0, 1.0, 0.95])),
+    "trimer": rc.Spheres(CENTERS[:3], np.array([1.0, 1.0, 0.95])),
     "unequal": rc.Spheres(CENTERS, np.array([1.0, 1.0, 0.95, 0.5])),
 }
 FLOW = rc.LinearFlow(np.array([[0.3, 1.1, -0.4], [0.2, -0.9, 0.7], [-1.3, 0.5, 0.6]]))
@@ -74,7 +74,9 @@ class TestFieldOfOneSphere:
         force, torque, stresslet = LOADS[name]
         n, mean = sphere_quadrature(40)
         a = self.RADIUS
-        traction = force / (4 * pi * a**2) + 3 * np.cross(torque, n) / (8 * pi * a**3) + 3 * n @ stresslet / (4 * pi * a**3)
+        traction = (
+            force / (4 * pi * a**2) + 3 * np.cross(torque, n) / (8 * pi * a**3) + 3 * n @ stresslet / (4 * pi * a**3)
+        )
         apart = self.POINTS[:, None] - a * n
         r = np.linalg.norm(apart, axis=-1)
         weights = 4 * pi * a**2 * mean
@@ -107,7 +109,10 @@ class TestFieldOfOneSphere:
             ahead, behind = (np.array([u(self.POINTS + sign * h * e) for e in unit]) for sign in (1, -1))
             divergence = np.einsum("kpk->p", ahead - behind) / (2 * h)
             laplacian = (ahead + behind - 2 * u(self.POINTS)).sum(axis=0) / h**2
-            p = [pressure(self.POINTS + h * e, force, stresslet) - pressure(self.POINTS - h * e, force, stresslet) for e in unit]
+            p = [
+                pressure(self.POINTS + h * e, force, stresslet) - pressure(self.POINTS - h * e, force, stresslet)
+                for e in unit
+            ]
             return np.abs(divergence).max(), np.abs(laplacian - np.array(p).T / (2 * h)).max()
 
         coarse, fine = np.array(residuals(0.02)), np.array(residuals(0.01))
@@ -125,7 +130,10 @@ def surface_averages(spheres, force, torque, stresslet):
     averages = []
     for center, radius in zip(spheres.centers, spheres.radii, strict=True):
         surface = center + radius * n
-        u = sum(disturbance(surface - spheres.centers[j], spheres.radii[j], force[j], torque[j], stresslet[j]) for j in range(len(spheres)))
+        u = sum(
+            disturbance(surface - spheres.centers[j], spheres.radii[j], force[j], torque[j], stresslet[j])
+            for j in range(len(spheres))
+        )
         strain = 3 / radius * np.einsum("p,pi,pj->ij", mean, n, u)
         averages.append(np.concatenate([mean @ u, 1.5 / radius * mean @ np.cross(n, u), strain_components(strain)]))
     return np.array(averages)
@@ -153,7 +161,9 @@ def check(response, loads, velocity, angular_velocity, gradient):
     strain = strain_components((gradient + gradient.T) / 2)
     stresslet = stresslets_without_strain(spheres, force, torque, strain)
     averages = surface_averages(spheres, force, torque, stresslet)
-    spin = 0.5 * np.array([gradient[2, 1] - gradient[1, 2], gradient[0, 2] - gradient[2, 0], gradient[1, 0] - gradient[0, 1]])
+    spin = 0.5 * np.array(
+        [gradient[2, 1] - gradient[1, 2], gradient[0, 2] - gradient[2, 0], gradient[1, 0] - gradient[0, 1]]
+    )
     moved = velocity + np.cross(angular_velocity, spheres.centers - response.center)
     tolerance = 1e-11 * max(np.abs(averages).max(), 1.0)
     np.testing.assert_allclose(averages[:, :3] + spheres.centers @ gradient.T, moved, atol=tolerance)
@@ -172,7 +182,9 @@ def test_free_aggregate(response):
     stresslet = check(response, response.loads(FLOW), motion.velocity, motion.angular_velocity, FLOW.gradient)
     grand = response.grand_resistance
     free = grand[6:, 6:] - grand[6:, :6] @ response.mobility @ grand[:6, 6:]
-    np.testing.assert_allclose(stresslet, free @ strain_components(FLOW.strain_rate), atol=1e-10 * np.abs(stresslet).max())
+    np.testing.assert_allclose(
+        stresslet, free @ strain_components(FLOW.strain_rate), atol=1e-10 * np.abs(stresslet).max()
+    )
 
 
 def test_held_aggregate(response):
@@ -186,4 +198,6 @@ def test_settling_aggregate(response):
     settling = response.settling(np.array([1.0, -2, 0.5]))
     stresslet = check(response, settling.loads, settling.velocity, settling.angular_velocity, np.zeros((3, 3)))
     moving = np.concatenate([settling.velocity, settling.angular_velocity])
-    np.testing.assert_allclose(stresslet, -response.grand_resistance[6:, :6] @ moving, atol=1e-10 * np.abs(stresslet).max())
+    np.testing.assert_allclose(
+        stresslet, -response.grand_resistance[6:, :6] @ moving, atol=1e-10 * np.abs(stresslet).max()
+    )

@@ -58,7 +58,9 @@ def test_order_two(order_two, name):
     assert set(NAMES) == set(expected)
     zero = 1e-6 * max(expected["shear_free"])
     assert np.shape(ours[name]) == np.shape(expected[name])
-    np.testing.assert_allclose(np.abs(ours[name]), np.abs(expected[name]), rtol=1e-6, atol=zero * (name == "moment_free"))
+    np.testing.assert_allclose(
+        np.abs(ours[name]), np.abs(expected[name]), rtol=1e-6, atol=zero * (name == "moment_free")
+    )
 
 
 def test_tension_is_a_pull(order_two):
@@ -68,7 +70,7 @@ def test_tension_is_a_pull(order_two):
 
 @pytest.mark.parametrize("count", [3, 4])
 def test_order_six_is_near_the_converged_value(count):
-    """Order 6 errs by 0.13 % in the doublet's tension (theory notes, section 2); half a per cent leaves room for bending."""
+    """Order 6 errs by 0.13 % in the doublet's tension (theory notes, section 2); half a per cent, with bending."""
     ours, expected = measures(count, 6), CHAINS[str(count)]["converged"]
     for name in NAMES:
         largest = np.max(np.abs(expected[name]))

@@ -1,8 +1,9 @@
 """Regular clusters of touching equal spheres: reference/clusters.json, copied from the project's shared reference.
 
-Its own words: "'order_2' is force-torque-stresslet from closed-form Faxén pair blocks, a second independent route, good
-to the digits shown (eta_free […] to about 1e-5). […] Regular clusters; centres are obvious from the name." Rt and Rr are
-the "principal translational resistances / (6 pi)" and the "principal rotational resistances about the centre / (8 pi)".
+It says: "'order_2' is force-torque-stresslet from closed-form Faxén pair blocks, a second independent route, good
+to the digits shown (eta_free […] to about 1e-5). […] Regular clusters; centres are obvious from the name." Rt and Rr
+are the "principal translational resistances / (6 pi)" and the "principal rotational resistances about the centre
+/ (8 pi)".
 """
 
 import json

@@ -2,8 +2,8 @@
 
 Its own words: "Touching equal spheres, radius 1, viscosity 1. Computed by an independent Galerkin multipole solver […];
 'converged' is its largest L, 'order_2' is force-torque-stresslet from closed-form Faxén pair blocks, a second
-independent route, good to the digits shown (eta_free, S_axi and S_xz to about 1e-5). Signs of shear and moment depend on
-the choice of axes: compare magnitudes."
+independent route, good to the digits shown (eta_free, S_axi and S_xz to about 1e-5). Signs of shear and moment depend
+on the choice of axes: compare magnitudes."
 """
 
 import json

@@ -45,12 +45,12 @@ class Bonds:
     def __post_init__(self) -> None:
         lengths = {}
         for field in fields(self):
-            value = np.array(getattr(self, field.name), dtype=np.float64)
-            if value.ndim > 1:
-                raise ValueError(f"{field.name}: expected one value or one per contact, got shape {value.shape}")
+            given = getattr(self, field.name)
+            if np.ndim(given) > 1:
+                raise ValueError(f"{field.name}: expected one value or one per contact, got shape {np.shape(given)}")
             unlimited = field.name.endswith("strength")
-            _checks.positive_array(field.name, np.where(np.isposinf(value) & unlimited, 1.0, value), value.shape)
-            object.__setattr__(self, field.name, _checks.frozen(value))
+            value = _checks.positive_array(field.name, given, np.shape(given), infinite_allowed=unlimited)
+            object.__setattr__(self, field.name, value)
             if value.ndim:
                 lengths[field.name] = len(value)
         if len(set(lengths.values())) > 1:

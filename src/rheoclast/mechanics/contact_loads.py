@@ -70,7 +70,8 @@ def contact_loads(
     loads
         Force and torque on every sphere, (..., N, 3). Their totals must vanish, as for a freely suspended aggregate.
     bonds
-        Stiffness of the contacts. It decides how loops share the load; a tree does not need it.
+        Stiffness of the contacts. It decides how loops share the load; a tree does not need it. Stiffnesses (bending
+        and twisting over a²) up to ten decades apart are shared to eight digits.
     method
         "statics" from balance alone (trees), "springs" from the stiffness of the contacts, "auto" chooses statics for
         a tree.
@@ -80,8 +81,12 @@ def contact_loads(
     ValueError
         If there is no contact, the loads do not match the spheres or do not balance, the bonds do not match the
         contacts, or loops are to be solved without bonds.
+    ArithmeticError
+        If springs are so soft, or a chain so long (thousands of spheres in line), that balance is not reached.
     """
     _check(aggregate, loads)
+    by_statics = _by_statics(aggregate, bonds, method)
+    stiffness = None if bonds is None else bonds.stiffness(len(aggregate.pairs))
     length = float(aggregate.spheres.radii.mean())
     origin = aggregate.spheres.center_of_mass
     geometry = (
@@ -90,11 +95,10 @@ def contact_loads(
         (aggregate.contact_points - origin) / length,
     )
     cases, size = _dimensionless_cases(loads, length)
-    if _by_statics(aggregate, bonds, method):
+    if by_statics or stiffness is None:
         carried = tree_loads(*geometry, cases)
     else:
-        assert bonds is not None
-        stiffness = bonds.stiffness(len(aggregate.pairs)) / [1, 1, length**2, length**2]
+        stiffness = stiffness / [1, 1, length**2, length**2]
         carried = spring_frame(*geometry, stiffness / stiffness[:, 0].mean()).joint_loads(cases)
     shape = (*loads.force.shape[:-2], len(aggregate.pairs), 3)
     force, moment = size * carried[:, :3], size * length * carried[:, 3:]
@@ -122,7 +126,11 @@ def _by_statics(aggregate: Aggregate, bonds: Bonds | None, method: Method) -> bo
         raise ValueError(
             f"method='statics' needs a tree, but the contacts close loops (hyperstaticity {degree}); use 'springs'"
         )
-    if method != "statics" and bonds is None and (degree or method == "springs"):
+    if method == "springs" and bonds is None and not degree:
+        raise ValueError(
+            "method='springs' needs bonds, got none; give for instance jkr_bonds(aggregate, material), or use 'statics'"
+        )
+    if bonds is None and degree:
         raise ValueError(
             f"bonds: needed to share the load among loops (hyperstaticity {degree}), got none; "
             "give for instance jkr_bonds(aggregate, material)"
@@ -146,8 +154,9 @@ def _check(aggregate: Aggregate, loads: SphereLoads) -> None:
         total, gross = np.linalg.norm(each.sum(axis=-2), axis=-1), sizes.sum(axis=-1)
         if (total > BALANCE_TOLERANCE * gross).any():
             worst = int(np.argmax(total / np.where(gross > 0, gross, 1)))
+            case = f" in load case {worst}" if total.size > 1 else ""
             raise ValueError(
-                f"loads: expected a total {name} of zero, got {total.flat[worst]:.3g} against {gross.flat[worst]:.3g} "
+                f"loads: expected a total {name} of zero{case}, got {total.flat[worst]:.3g} against {gross.flat[worst]:.3g} "
                 "in all; use the loads of the freely suspended aggregate, response.loads(flow) or "
                 "settling(force).net_loads"
             )

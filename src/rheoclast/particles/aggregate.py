@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -10,7 +11,7 @@ from scipy.spatial import cKDTree
 from rheoclast import _checks
 from rheoclast._checks import FloatArray, IntArray
 from rheoclast.errors import GeometryError
-from rheoclast.particles.contacts import CONTACT_TOLERANCE, connected_parts, near_pairs
+from rheoclast.particles.contacts import CONTACT_TOLERANCE, connected_parts, near_pairs, surface_gaps
 from rheoclast.particles.spheres import Spheres
 
 
@@ -54,6 +55,10 @@ class Aggregate:
     def scaled(self, factor: float) -> Aggregate:
         """The same aggregate with all lengths times a positive factor."""
         return Aggregate(self.spheres.scaled(factor), self.pairs)
+
+    def rotated(self, rotation: Any) -> Aggregate:
+        """The same aggregate turned about the origin by a (3, 3) rotation matrix or a SciPy `Rotation`."""
+        return Aggregate(self.spheres.rotated(rotation), self.pairs)
 
     @property
     def normals(self) -> FloatArray:
@@ -122,12 +127,16 @@ def _refuse_parts(spheres: Spheres, pairs: IntArray) -> None:
 
 
 def _narrowest_gap(spheres: Spheres, part: IntArray) -> tuple[int, int, float]:
-    """The pair (inside `part`, outside it) that is closest, and its gap over the mean radius."""
+    """The pair (inside `part`, outside it) with the smallest gap over its mean radius, and that gap."""
     rest = np.setdiff1d(np.arange(len(spheres)), part)
     centers, radii = spheres.centers, spheres.radii
-    nearest = np.arange(1, min(len(rest), 16) + 1)
-    distance, index = (np.asarray(found) for found in cKDTree(centers[rest]).query(centers[part], k=nearest))
-    sums = radii[part][:, None] + radii[rest[index]]
-    gaps = 2 * (distance - sums) / sums
-    row, column = np.unravel_index(int(gaps.argmin()), gaps.shape)
-    return int(part[row]), int(rest[index[row, column]]), float(gaps[row, column])
+    tree = cKDTree(centers[rest])
+    nearest = np.stack([part, rest[tree.query(centers[part])[1]]], axis=1)
+    bound = float(surface_gaps(centers, radii, nearest).min())
+    # A larger sphere may be nearer by its surface, though not by its centre: look as far as the bound allows.
+    reach = (radii[part] + radii[rest].max()) * (1 + bound / 2) * (1 + 1e-12)
+    near = [rest[found] for found in tree.query_ball_point(centers[part], reach)]
+    pairs = np.stack([np.repeat(part, [len(found) for found in near]), np.concatenate(near)], axis=1)
+    gaps = surface_gaps(centers, radii, pairs)
+    i, j = pairs[gaps.argmin()].tolist()
+    return i, j, float(gaps.min())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -58,6 +59,11 @@ class Spheres:
         factor = _checks.positive("factor", factor)
         return Spheres(factor * self.centers, factor * self.radii, self.overlap_tolerance)
 
+    def rotated(self, rotation: Any) -> Spheres:
+        """The same spheres turned about the origin by a (3, 3) rotation matrix or a SciPy `Rotation`."""
+        matrix = _checks.rotation_matrix("rotation", rotation)
+        return Spheres(self.centers @ matrix.T, self.radii, self.overlap_tolerance)
+
     @property
     def volumes(self) -> FloatArray:
         """Volume of every sphere, (N,), in m³."""
@@ -77,7 +83,7 @@ def _refuse_overlap(centers: FloatArray, radii: FloatArray, tolerance: float) ->
     i, j = (int(k) for k in pairs[worst])
     distance, sum_of_radii = float(np.linalg.norm(centers[j] - centers[i])), radii[i] + radii[j]
     others = int(np.sum(gaps < -tolerance)) - 1
-    more = f" (and {others} more pairs)" if others else ""
+    more = f" (and {others} more pair{'s' * (others > 1)})" if others else ""
     if distance <= 1e-9 * sum_of_radii:
         raise GeometryError(f"spheres {i} and {j} are at the same place {centers[i]}{more}; remove the duplicate")
     raise GeometryError(

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 INK, FAINT_INK = "#24282d", "#6d737a"
 SMALL, TINY = 9, 8  # points
 EXTENDED, SHORTENED = "#c9370f", "#1c5fb4"
+END_ON = 0.2  # projected length of a unit vector that counts as pointing at the viewer
 Box = tuple[float, float, float, float]
 
 
@@ -54,15 +55,16 @@ def draw_triad(figure: Figure, box: Box, view: FloatArray) -> None:
     """Projected axes of coordinates x, y, z, seen along the third row of `view` (3, 3)."""
     axes = _bare_axes(figure, box)
     axes.set(xlim=(-1.35, 1.35), ylim=(-1.35, 1.35))
-    for name, tip in sorted(zip("xyz", view[:2].T, strict=True), key=lambda item: view[2, "xyz".index(item[0])]):
-        length = float(np.hypot(*tip))
-        if length < 0.2:
-            _draw_end_on(axes, towards=view[2, "xyz".index(name)] > 0)
-            axes.text(-0.38, -0.34, name, ha="center", va="center", size=TINY, color=FAINT_INK)
-            continue
-        _arrow(axes, np.zeros(2), 0.85 * tip, FAINT_INK)
-        beyond = (0.85 + 0.3 / length) * tip
-        axes.text(float(beyond[0]), float(beyond[1]), name, ha="center", va="center", size=TINY, color=FAINT_INK)
+    tips = view[:2].T
+    for k in np.argsort(view[2]):
+        length = float(np.hypot(*tips[k]))
+        if length < END_ON:
+            _draw_end_on(axes, towards=view[2, k] > 0)
+        else:
+            _arrow(axes, np.zeros(2), 0.85 * tips[k], FAINT_INK)
+        aside = tips[k] - tips.sum(axis=0)
+        place = (0.85 + 0.3 / length) * tips[k] if length > 0.45 else 0.5 * aside / np.hypot(*aside)
+        axes.text(float(place[0]), float(place[1]), "xyz"[k], ha="center", va="center", size=TINY, color=FAINT_INK)
 
 
 def draw_flow(figure: Figure, box: Box, view: FloatArray, strain_rate: FloatArray) -> None:
@@ -134,7 +136,8 @@ def _bare_axes(figure: Figure, box: Box) -> Axes:
 
 
 def _arrow(axes: Axes, start: FloatArray, end: FloatArray, colour: str) -> None:
-    style = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.3, "mutation_scale": 8, "shrinkA": 0, "shrinkB": 0}
+    head = 8 * min(1.0, 2.5 * float(np.hypot(*(end - start))))
+    style = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.3, "mutation_scale": head, "shrinkA": 0, "shrinkB": 0}
     axes.annotate("", tuple(end), tuple(start), arrowprops=style, annotation_clip=False)
 
 
