@@ -126,15 +126,9 @@ def _by_statics(aggregate: Aggregate, bonds: Bonds | None, method: Method) -> bo
         raise ValueError(
             f"method='statics' needs a tree, but the contacts close loops (hyperstaticity {degree}); use 'springs'"
         )
-    if method == "springs" and bonds is None and not degree:
-        raise ValueError(
-            "method='springs' needs bonds, got none; give for instance jkr_bonds(aggregate, material), or use 'statics'"
-        )
-    if bonds is None and degree:
-        raise ValueError(
-            f"bonds: needed to share the load among loops (hyperstaticity {degree}), got none; "
-            "give for instance jkr_bonds(aggregate, material)"
-        )
+    if bonds is None and (degree or method == "springs"):
+        purpose = f"share the load among loops (hyperstaticity {degree})" if degree else "solve by springs"
+        raise ValueError(f"bonds: needed to {purpose}, got none; give for instance jkr_bonds(aggregate, material)")
     return method == "statics" or (method == "auto" and degree == 0)
 
 
@@ -143,20 +137,20 @@ def _check(aggregate: Aggregate, loads: SphereLoads) -> None:
         raise ValueError("the aggregate is a single sphere and has no contact; expected at least two touching spheres")
     if loads.force.shape[-2] != len(aggregate):
         raise ValueError(f"loads: expected one per sphere ({len(aggregate)}), got {loads.force.shape[-2]}")
-    arms = aggregate.spheres.centers - aggregate.spheres.center_of_mass
-    extent = np.linalg.norm(arms, axis=1).max()
+    _refuse_unbalanced(aggregate.spheres.centers - aggregate.spheres.center_of_mass, loads)
+
+
+def _refuse_unbalanced(arms: FloatArray, loads: SphereLoads) -> None:
     force_size = np.linalg.norm(loads.force, axis=-1)
-    torque_size = np.linalg.norm(loads.torque, axis=-1) + extent * force_size
-    for name, each, sizes in (
-        ("force", loads.force, force_size),
-        ("torque", np.cross(arms, loads.force) + loads.torque, torque_size),
-    ):
-        total, gross = np.linalg.norm(each.sum(axis=-2), axis=-1), sizes.sum(axis=-1)
-        if (total > BALANCE_TOLERANCE * gross).any():
-            worst = int(np.argmax(total / np.where(gross > 0, gross, 1)))
-            case = f" in load case {worst}" if total.size > 1 else ""
+    torque_size = np.linalg.norm(loads.torque, axis=-1) + np.linalg.norm(arms, axis=1).max() * force_size
+    moments = np.cross(arms, loads.force) + loads.torque
+    for name, each, sizes in (("force", loads.force, force_size), ("torque", moments, torque_size)):
+        total, gross = np.ravel(np.linalg.norm(each.sum(axis=-2), axis=-1)), np.ravel(sizes.sum(axis=-1))
+        unbalanced = np.flatnonzero(total > BALANCE_TOLERANCE * gross)
+        if len(unbalanced):
+            case = int(unbalanced[0])
+            which = f" of case {case}" if len(total) > 1 else ""
             raise ValueError(
-                f"loads: expected a total {name} of zero{case}, got {total.flat[worst]:.3g} against {gross.flat[worst]:.3g} "
-                "in all; use the loads of the freely suspended aggregate, response.loads(flow) or "
-                "settling(force).net_loads"
+                f"loads{which}: expected a total {name} of zero, got {total[case]:.3g} against {gross[case]:.3g} in all; "
+                "use the loads of the free aggregate, response.loads(flow) or settling(force).net_loads"
             )
