@@ -12,7 +12,9 @@ class HydrodynamicModel(ABC):
     """Gives the loads on every sphere of a rigid aggregate, held fixed in each of the eleven elementary flows."""
 
     @abstractmethod
-    def elementary_loads(self, centers: FloatArray, radii: FloatArray, progress: Progress | None = None) -> FloatArray:
+    def elementary_loads(
+        self, centers: FloatArray, radii: FloatArray, progress: Progress | None = None
+    ) -> list[FloatArray]:
         """Force, torque and stresslet of the fluid on every sphere, dimensionless (viscosity one).
 
         Parameters
@@ -25,7 +27,8 @@ class HydrodynamicModel(ABC):
         Returns
         -------
         loads
-            (N, 11, 11). Row: three components of force, three of torque and five of stresslet (on `STRAIN_BASIS`),
-            torque and stresslet about the centre of the sphere. Column: three unit streams, three unit rotations about
-            the reference point and five unit strains in which the aggregate is held at rest.
+            One array (N, 11, 11), or several of increasing accuracy of which the last is the answer. Row: three
+            components of force, three of torque and five of stresslet (on `STRAIN_BASIS`), torque and stresslet about
+            the centre of the sphere. Column: three unit streams, three unit rotations about the reference point and
+            five unit strains in which the aggregate is held at rest.
         """

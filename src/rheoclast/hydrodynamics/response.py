@@ -56,8 +56,11 @@ def rigid_response(
         warn_of_viscosity(viscosity)
     scales = Scales(float(spheres.radii.mean()), viscosity)
     centers = (spheres.centers - spheres.center_of_mass) / scales.length
-    loads = model.elementary_loads(centers, spheres.radii / scales.length, progress)
-    return RigidResponse(spheres, model, scales, _checks.frozen(loads))
+    response = None
+    for loads in model.elementary_loads(centers, spheres.radii / scales.length, progress):
+        response = RigidResponse(spheres, model, scales, _checks.frozen(loads), response)
+    assert response is not None
+    return response
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,12 +75,15 @@ class RigidResponse:
         Units of length and viscosity.
     elementary_loads
         (N, 11, 11) dimensionless loads on every sphere, see `HydrodynamicModel.elementary_loads`.
+    coarser
+        The response at the next lower accuracy (multipole order), if the model gives one.
     """
 
     spheres: Spheres
     model: HydrodynamicModel
     scales: Scales
     elementary_loads: FloatArray
+    coarser: RigidResponse | None = None
 
     @property
     def viscosity(self) -> float:
@@ -144,7 +150,10 @@ class RigidResponse:
 
     @cached_property
     def mobility(self) -> FloatArray:
-        """Mobility (6, 6): velocity and angular velocity of `center` per unit force and torque there."""
+        """Mobility (6, 6): velocity and angular velocity of `center` per unit force and torque there.
+
+        At order 1 a sphere has no resistance to rotation; what then turns freely has zero mobility here.
+        """
         return self._mobility / (np.outer(self._units[:6], self._units[:6]) * self.viscosity * self.scales.length)
 
     @cached_property

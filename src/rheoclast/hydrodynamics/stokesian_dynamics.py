@@ -36,7 +36,10 @@ class StokesianDynamics(HydrodynamicModel):
     def __post_init__(self) -> None:
         MultipoleBasis(self.order)
 
-    def elementary_loads(self, centers: FloatArray, radii: FloatArray, progress: Progress | None = None) -> FloatArray:
+    def elementary_loads(
+        self, centers: FloatArray, radii: FloatArray, progress: Progress | None = None
+    ) -> list[FloatArray]:
         """See `HydrodynamicModel.elementary_loads`."""
         mobility = Mobility(centers, radii, MultipoleBasis(self.order))
-        return mobility.moments(self.solver.solve(mobility, mobility.ambient_velocities(), progress))
+        tractions = self.solver.solve(mobility, mobility.ambient_velocities(), progress)
+        return [mobility.moments(each) for each in tractions]

@@ -151,6 +151,7 @@ def _refuse_unbalanced(arms: FloatArray, loads: SphereLoads) -> None:
             case = int(unbalanced[0])
             which = f" of case {case}" if len(total) > 1 else ""
             raise ValueError(
-                f"loads{which}: expected a total {name} of zero, got {total[case]:.3g} against {gross[case]:.3g} in all; "
+                f"loads{which}: expected a total {name} of zero, "
+                f"got {total[case]:.3g} against {gross[case]:.3g} in all; "
                 "use the loads of the free aggregate, response.loads(flow) or settling(force).net_loads"
             )

@@ -58,14 +58,14 @@ class Mobility:
         return velocities
 
     def matrix(self, progress: Progress | None = None) -> FloatArray:
-        """The dense matrix (N, M, N, M)."""
+        """The dense matrix (M, N, M, N), mode before sphere: its leading part is the matrix of every lower order."""
         count, modes = len(self.radii), self.basis.size
-        matrix = np.zeros((count, modes, count, modes))
-        sphere, mode = np.arange(count)[:, None], np.arange(modes)
-        matrix[sphere, mode, sphere, mode] = self.basis.self_mobility / self.radii[:, None]
+        matrix = np.zeros((modes, count, modes, count))
+        mode, sphere = np.arange(modes)[:, None], np.arange(count)
+        matrix[mode, sphere, mode, sphere] = self.basis.self_mobility[:, None] / self.radii
         for i, others, blocks in self._rows():
-            matrix[i, :, others] = blocks.transpose(1, 0, 2)
-            matrix[others, :, i] = blocks.transpose(0, 2, 1)
+            matrix[:, i, :, others] = blocks.transpose(1, 2, 0)
+            matrix[:, others, :, i] = blocks.transpose(2, 0, 1)
             if progress is not None:
                 progress("pair mobilities", ((i + 1) / count) ** 2)
         return matrix
@@ -88,7 +88,10 @@ class Mobility:
         return velocities.transpose(0, 2, 1)
 
     def moments(self, tractions: FloatArray) -> FloatArray:
-        """Force, torque and stresslet components (N, 11, K) of every sphere from the tractions (N, M, K)."""
-        moments = self.basis.elementary_velocities @ tractions
+        """Force, torque and stresslet components (N, 11, K) of every sphere from the tractions (N, M, K).
+
+        The tractions may be those of a lower order, with fewer modes.
+        """
+        moments = self.basis.elementary_velocities[:, : tractions.shape[1]] @ tractions
         moments[:, 3:] *= self.radii[:, None, None]
         return moments

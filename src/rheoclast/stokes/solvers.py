@@ -7,11 +7,12 @@ from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from typing import Any, final
 
-from scipy.linalg import LinAlgError, cho_factor, cho_solve
+from scipy.linalg import LinAlgError, cho_factor, solve_triangular
 from threadpoolctl import threadpool_limits
 
 from rheoclast._checks import FloatArray
 from rheoclast.errors import GeometryError
+from rheoclast.stokes.basis import MultipoleBasis
 from rheoclast.stokes.mobility import Mobility, Progress
 
 
@@ -19,40 +20,61 @@ class Solver(ABC):
     """Solves for the tractions that give prescribed surface velocities."""
 
     @abstractmethod
-    def solve(self, mobility: Mobility, velocities: FloatArray, progress: Progress | None = None) -> FloatArray:
-        """Tractions (N, M, K) from velocities (N, M, K)."""
+    def solve(self, mobility: Mobility, velocities: FloatArray, progress: Progress | None = None) -> list[FloatArray]:
+        """Tractions (N, M, K) that give velocities (N, M, K), at increasing multipole order.
+
+        The last is the solution asked for. Those before it have fewer modes and show how it converges.
+        """
 
 
 @final
 @dataclass(frozen=True)
 class DenseCholesky(Solver):
-    """Factorizes the dense matrix: exact to rounding, time N³, memory 8 (N M)² bytes."""
+    """Factorizes the dense matrix: exact to rounding, time N³, memory 8 (N M)² bytes.
 
-    def solve(self, mobility: Mobility, velocities: FloatArray, progress: Progress | None = None) -> FloatArray:
-        """Tractions (N, M, K) from velocities (N, M, K).
+    Orders are nested, so the leading part of the one factorization serves every lower order.
+    """
+
+    def solve(self, mobility: Mobility, velocities: FloatArray, progress: Progress | None = None) -> list[FloatArray]:
+        """Tractions (N, M, K) of orders 1 to p from velocities (N, M, K).
 
         Raises
         ------
         GeometryError
             If the mobility is not positive definite, which happens when spheres overlap.
         """
-        size = mobility.shape[0]
-        matrix = mobility.matrix(progress).reshape(size, size)
+        count, modes, columns = velocities.shape
+        matrix = mobility.matrix(progress).reshape(modes * count, modes * count)
         if progress is not None:
             progress("factorization", 0.0)
-        with _safe_threads(size):
-            try:
-                # The matrix is symmetric: its transpose is the same, and in the order that LAPACK overwrites.
-                factor = cho_factor(matrix.T, lower=True, overwrite_a=True, check_finite=False)
-            except LinAlgError:
-                raise GeometryError(
-                    "the mobility of these spheres is not positive definite, as happens when spheres overlap; "
-                    "shrink the radii until they only touch"
-                ) from None
-            tractions = cho_solve(factor, velocities.reshape(size, -1), check_finite=False)
+        with _safe_threads(len(matrix)):
+            # The matrix is symmetric: its transpose is the same, and in the order that LAPACK overwrites.
+            factor = _cholesky(matrix.T)
+            right_side = velocities.transpose(1, 0, 2).reshape(modes * count, columns)
+            forward = solve_triangular(factor, right_side, lower=True, check_finite=False)
+            tractions = [
+                _backward(factor, forward, count * MultipoleBasis(order).size).reshape(-1, count, columns)
+                for order in range(1, mobility.basis.order + 1)
+            ]
         if progress is not None:
             progress("factorization", 1.0)
-        return tractions.reshape(velocities.shape)
+        return [each.transpose(1, 0, 2) for each in tractions]
+
+
+def _cholesky(matrix: FloatArray) -> FloatArray:
+    """Lower factor in place of a symmetric matrix in Fortran order."""
+    try:
+        return cho_factor(matrix, lower=True, overwrite_a=True, check_finite=False)[0]
+    except LinAlgError:
+        raise GeometryError(
+            "the mobility of these spheres is not positive definite, as happens when spheres overlap; "
+            "shrink the radii until they only touch"
+        ) from None
+
+
+def _backward(factor: FloatArray, forward: FloatArray, size: int) -> FloatArray:
+    """Solution (size, K) of the leading part of the system, from the forward substitution of the whole."""
+    return solve_triangular(factor[:size, :size], forward[:size], lower=True, trans="T", check_finite=False)
 
 
 LARGEST_THREADED_CHOLESKY = 15_000

@@ -177,6 +177,17 @@ def test_no_text_is_cut_off(critical, size, body):
             assert box.y1 <= height
 
 
+@pytest.mark.parametrize("critical", [0, 17, 58])
+def test_label_of_the_critical_contact_stays_clear_of_its_ring(critical):
+    figure = draw(grown(60, recent=1), critical=critical, size=(4.5, 2.5))
+    axes = figure.axes[0]
+    (label,), ring = axes.texts, axes.patches[-1]
+    box = label.get_window_extent()
+    middle = axes.transData.transform(ring.center)
+    gap = np.clip(middle, box.min, box.max) - middle
+    assert np.hypot(*gap) > ring.radius
+
+
 def test_hidden_critical_contact_is_said_to_be_hidden():
     behind = touching([[0, 0, 0], [2, 0, 0], [1, 0, np.sqrt(3)], [1, 0, 2 + np.sqrt(3)]])
     contact = behind.pairs.tolist().index([2, 3])

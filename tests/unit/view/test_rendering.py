@@ -69,10 +69,11 @@ def test_paint_has_the_colour_of_its_contact(colour, sign):
 
 
 def test_paint_does_not_reach_a_third_sphere():
-    centers, radii = np.array([[60.0, 60, 0], [140.0, 60, 0], [100.0, 60, 60]]), np.array([40.0, 40, 20])
+    centers, radii = np.array([[60.0, 60, 0], [140.0, 60, 0], [100.0, 60, 27]]), np.array([40.0, 40, 8])
     collars = Collars(np.array([[0, 1]]), np.array([[100.0, 60, 0]]), np.array([36.0]), np.array([RED]))
     rendering = render(centers, radii, collars, 200, 120)
-    assert not (rendering.contact[rendering.owner == 2] == 0).any()
+    assert (rendering.owner == 2).any()
+    assert (rendering.contact[rendering.owner == 2] == NOTHING).all()
 
 
 def test_neighbours_darken_a_sphere_where_they_face_it():

@@ -36,6 +36,6 @@ class Uniform(ContactLaw):
         for name, value in vars(self).items():
             _checks.positive(name, value)
 
-    def bonds(self, aggregate: Aggregate) -> Bonds:  # noqa: ARG002
+    def bonds(self, aggregate: Aggregate) -> Bonds:
         """Bonds that hold for any number of contacts."""
         return Bonds(**vars(self))
