@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rheoclast._checks import FloatArray, real_array
+from rheoclast._checks import FloatArray, not_negative, real_array
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,12 +19,17 @@ class SphereLoads:
         (N, 3), or (..., N, 3) for a batch of load cases, in N.
     torque
         Same shape, in N m, about the centre of each sphere.
+    rounding
+        Size of the rounding errors in `force`, in N: totals of this size count as zero. Loads that vanish by symmetry
+        are nothing else.
     """
 
     force: FloatArray
     torque: FloatArray
+    rounding: float = 0.0
 
     def __post_init__(self) -> None:
         force = real_array("force", self.force, (*np.shape(self.force)[:-2], "N", 3))
         object.__setattr__(self, "force", force)
         object.__setattr__(self, "torque", real_array("torque", self.torque, force.shape))
+        object.__setattr__(self, "rounding", not_negative("rounding", self.rounding))

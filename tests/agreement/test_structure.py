@@ -259,3 +259,16 @@ def test_doublet_in_free_draining_extension():
     assert table.worst_tension(flow)[0] == pytest.approx(pull, rel=1e-10)
     assert table.worst_tension(rc.planar_extension(rate))[0] == pytest.approx(pull, rel=1e-10)
     assert table.worst_tension(rc.biaxial_extension(rate))[0] == pytest.approx(pull, rel=1e-10)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_loads_that_vanish_by_symmetry_count_as_balanced(order):
+    """A doublet across the strain carries nothing: its loads are rounding, and no reason to refuse them."""
+    turn = Rotation.random(random_state=3).as_matrix()
+    doublet = rc.Aggregate.touching(rc.Spheres(1e-6 * np.array([[0, 0, -1.0], [0, 0, 1.0]]) @ turn.T, 1e-6))
+    response = rc.rigid_response(doublet.spheres, rc.StokesianDynamics(order), viscosity=1e-3)
+    along = rc.contact_loads(doublet, response.loads(rc.uniaxial_extension(1.0).rotated(turn)))
+    across = rc.contact_loads(doublet, response.loads(rc.planar_extension(1.0).rotated(turn)))
+    assert abs(across.tension[0]) < 1e-12 * along.tension[0]
+    table = rc.contact_response(doublet, response)
+    assert table.worst_tension(rc.uniaxial_extension(1.0))[0] == pytest.approx(along.tension[0], rel=1e-9)

@@ -32,3 +32,7 @@ class HydrodynamicModel(ABC):
             the centre of the sphere. Column: three unit streams, three unit rotations about the reference point and
             five unit strains in which the aggregate is held at rest.
         """
+
+    def memory(self, count: int) -> float:
+        """Memory in bytes that the loads of `count` spheres take at most; zero where it does not matter."""
+        return 0.0

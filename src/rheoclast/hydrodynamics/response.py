@@ -19,6 +19,7 @@ from rheoclast.stokes.mobility import Progress
 from rheoclast.vectors import LEVI_CIVITA, STRAIN_BASIS, cross_matrix, elementary_velocities, strain_components
 
 SINGULAR = 1e-12
+ROUNDING = 1e-12
 DIMENSIONLESS_VISCOSITY = 1.0
 
 
@@ -103,10 +104,9 @@ class RigidResponse:
 
     def loads(self, flow: LinearFlow) -> SphereLoads:
         """Loads of the fluid on every sphere of the freely suspended aggregate. They depend on the strain rate only."""
-        components = strain_components(flow.strain_rate)
-        return SphereLoads(
-            np.tensordot(components, self.strain_loads.force, 1), np.tensordot(components, self.strain_loads.torque, 1)
-        )
+        components, unit = strain_components(flow.strain_rate), self.strain_loads
+        rounding = unit.rounding * float(np.abs(components).max())
+        return SphereLoads(np.tensordot(components, unit.force, 1), np.tensordot(components, unit.torque, 1), rounding)
 
     def held(self, flow: LinearFlow) -> SphereLoads:
         """Loads of the fluid on every sphere of the aggregate held at rest where it is."""
@@ -122,13 +122,15 @@ class RigidResponse:
         relative = -np.concatenate([velocity / self.scales.length, angular_velocity])
         loads = self._dimensional(self.elementary_loads[:, :, :6] @ relative)
         share = self.spheres.volumes / self.spheres.volumes.sum()
-        net_loads = SphereLoads(loads.force + share[:, None] * force, loads.torque)
+        rounding = ROUNDING * float(np.abs(force).max())
+        net_loads = SphereLoads(loads.force + share[:, None] * force, loads.torque, rounding)
         return Settling(velocity, angular_velocity, self.center, loads, net_loads)
 
     @cached_property
     def strain_loads(self) -> SphereLoads:
         """Loads (5, N, 3) on the free aggregate's spheres in unit strain rates `STRAIN_BASIS`, in N s and N m s."""
-        return self._dimensional(self._free_loads.transpose(2, 0, 1))
+        size = float(np.abs(self.elementary_loads[:, :3, 6:]).max())
+        return self._dimensional(self._free_loads.transpose(2, 0, 1), ROUNDING * size)
 
     @property
     def table(self) -> FloatArray:
@@ -232,6 +234,7 @@ class RigidResponse:
         """Length (11,) that each elementary flow's velocity on the aggregate is proportional to."""
         return np.array([1.0] * 3 + [self.scales.length] * 8)
 
-    def _dimensional(self, loads: FloatArray) -> SphereLoads:
-        """SI loads from dimensionless force and torque (N, 6 or more) or (..., N, 6)."""
-        return SphereLoads(self.scales.force * loads[..., :3], self.scales.torque * loads[..., 3:6])
+    def _dimensional(self, loads: FloatArray, rounding: float = 0.0) -> SphereLoads:
+        """SI loads from dimensionless force and torque (..., N, 6 or more)."""
+        force, torque = self.scales.force * loads[..., :3], self.scales.torque * loads[..., 3:6]
+        return SphereLoads(force, torque, self.scales.force * rounding)

@@ -43,3 +43,7 @@ class StokesianDynamics(HydrodynamicModel):
         mobility = Mobility(centers, radii, MultipoleBasis(self.order))
         tractions = self.solver.solve(mobility, mobility.ambient_velocities(), progress)
         return [mobility.moments(each) for each in tractions]
+
+    def memory(self, count: int) -> float:
+        """Memory in bytes that the solution for `count` spheres takes at most."""
+        return self.solver.memory(count, MultipoleBasis(self.order))

@@ -141,12 +141,17 @@ def _check(aggregate: Aggregate, loads: SphereLoads) -> None:
 
 
 def _refuse_unbalanced(arms: FloatArray, loads: SphereLoads) -> None:
+    extent = np.linalg.norm(arms, axis=1).max()
     force_size = np.linalg.norm(loads.force, axis=-1)
-    torque_size = np.linalg.norm(loads.torque, axis=-1) + np.linalg.norm(arms, axis=1).max() * force_size
+    torque_size = np.linalg.norm(loads.torque, axis=-1) + extent * force_size
     moments = np.cross(arms, loads.force) + loads.torque
-    for name, each, sizes in (("force", loads.force, force_size), ("torque", moments, torque_size)):
+    rounding = len(arms) * loads.rounding
+    for name, each, sizes, slack in (
+        ("force", loads.force, force_size, rounding),
+        ("torque", moments, torque_size, extent * rounding),
+    ):
         total, gross = np.ravel(np.linalg.norm(each.sum(axis=-2), axis=-1)), np.ravel(sizes.sum(axis=-1))
-        unbalanced = np.flatnonzero(total > BALANCE_TOLERANCE * gross)
+        unbalanced = np.flatnonzero(total > BALANCE_TOLERANCE * gross + slack)
         if len(unbalanced):
             case = int(unbalanced[0])
             which = f" of case {case}" if len(total) > 1 else ""

@@ -7,13 +7,14 @@ from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from typing import Any, final
 
+import psutil
 from scipy.linalg import LinAlgError, cho_factor, solve_triangular
 from threadpoolctl import threadpool_limits
 
 from rheoclast._checks import FloatArray
 from rheoclast.errors import GeometryError
 from rheoclast.stokes.basis import MultipoleBasis
-from rheoclast.stokes.mobility import Mobility, Progress
+from rheoclast.stokes.mobility import PAIR_CHUNK_BYTES, Mobility, Progress
 
 
 class Solver(ABC):
@@ -25,6 +26,10 @@ class Solver(ABC):
 
         The last is the solution asked for. Those before it have fewer modes and show how it converges.
         """
+
+    @abstractmethod
+    def memory(self, count: int, basis: MultipoleBasis) -> float:
+        """Memory in bytes that the solution for `count` spheres takes at most."""
 
 
 @final
@@ -40,10 +45,13 @@ class DenseCholesky(Solver):
 
         Raises
         ------
+        MemoryError
+            If the matrix does not fit into the memory that is free.
         GeometryError
             If the mobility is not positive definite, which happens when spheres overlap.
         """
         count, modes, columns = velocities.shape
+        _refuse_beyond_memory(self.memory(count, mobility.basis), mobility)
         matrix = mobility.matrix(progress).reshape(modes * count, modes * count)
         if progress is not None:
             progress("factorization", 0.0)
@@ -59,6 +67,21 @@ class DenseCholesky(Solver):
         if progress is not None:
             progress("factorization", 1.0)
         return [each.transpose(1, 0, 2) for each in tractions]
+
+    def memory(self, count: int, basis: MultipoleBasis) -> float:
+        """Bytes of the matrix, and of the copy of its leading part that the next lower order takes."""
+        lower = MultipoleBasis(basis.order - 1).size if basis.order > 1 else 0
+        return 8.0 * count**2 * (basis.size**2 + lower**2) + PAIR_CHUNK_BYTES * 4
+
+
+def _refuse_beyond_memory(needed: float, mobility: Mobility) -> None:
+    available = psutil.virtual_memory().available
+    if needed > available:
+        order = mobility.basis.order
+        raise MemoryError(
+            f"order {order} of {len(mobility.radii)} spheres needs {needed / 1e9:.3g} GB of memory, "
+            f"{available / 1e9:.3g} GB are free; use a lower order or fewer spheres"
+        )
 
 
 def _cholesky(matrix: FloatArray) -> FloatArray:
