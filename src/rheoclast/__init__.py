@@ -11,6 +11,7 @@ from rheoclast.io import read, read_spheres, write, write_table
 from rheoclast.flows import LinearFlow, biaxial_extension, planar_extension, simple_shear, uniaxial_extension
 from rheoclast.hydrodynamics.model import HydrodynamicModel
 from rheoclast.hydrodynamics.free_draining import FreeDraining
+from rheoclast.hydrodynamics.exposed_area import ExposedArea
 from rheoclast.hydrodynamics.stokesian_dynamics import StokesianDynamics
 from rheoclast.hydrodynamics.response import RigidResponse, rigid_response
 from rheoclast.hydrodynamics.motion import RigidMotion, Settling
@@ -26,6 +27,7 @@ from rheoclast.mechanics.contact_loads import ContactLoads, contact_loads
 from rheoclast.mechanics.criteria import load_ratios
 
 from rheoclast.breakup.contact_response import ContactResponse, contact_response
+from rheoclast.breakup.truncation import TruncationError, truncation_error
 from rheoclast.breakup.initiation import Initiation, initiation, worst_initiation
 
 from rheoclast.errors import FileFormatError, GeometryError, UnitWarning
@@ -47,6 +49,7 @@ __all__ = [
     "uniaxial_extension",
     "HydrodynamicModel",
     "FreeDraining",
+    "ExposedArea",
     "StokesianDynamics",
     "RigidResponse",
     "rigid_response",
@@ -66,6 +69,8 @@ __all__ = [
     "load_ratios",
     "ContactResponse",
     "contact_response",
+    "TruncationError",
+    "truncation_error",
     "Initiation",
     "initiation",
     "worst_initiation",

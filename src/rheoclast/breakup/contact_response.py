@@ -10,6 +10,7 @@ from rheoclast._checks import FloatArray
 from rheoclast.errors import GeometryError
 from rheoclast.flows import LinearFlow
 from rheoclast.hydrodynamics.response import RigidResponse
+from rheoclast.loads import SphereLoads
 from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.contact_loads import ContactLoads, contact_loads
 from rheoclast.particles.aggregate import Aggregate
@@ -26,11 +27,17 @@ class ContactResponse:
         (C, 3) unit vectors from sphere i to sphere j of each contact.
     force, moment
         (C, 3, 5) per component of the strain rate on `STRAIN_BASIS`, in N s and N m s; signs as in `ContactLoads`.
+    order
+        Multipole order of the hydrodynamics; None if the model has none.
+    coarser
+        The same at the next lower order, where there is one.
     """
 
     normals: FloatArray
     force: FloatArray
     moment: FloatArray
+    order: int | None = None
+    coarser: ContactResponse | None = None
 
     @property
     def map(self) -> FloatArray:
@@ -94,5 +101,27 @@ def contact_response(aggregate: Aggregate, response: RigidResponse, bonds: Bonds
             f"the response was solved for other spheres ({len(response.spheres)}) than those of the aggregate "
             f"({len(aggregate)}); solve rigid_response(aggregate.spheres, ...) first"
         )
-    loads = contact_loads(aggregate, response.strain_loads, bonds)
-    return ContactResponse(loads.normals, loads.force.transpose(1, 2, 0), loads.moment.transpose(1, 2, 0))
+    by_order = _from_coarse_to_fine(response)
+    unit = [each.strain_loads for each in by_order]
+    batch = SphereLoads(
+        np.stack([each.force for each in unit]),
+        np.stack([each.torque for each in unit]),
+        max(each.rounding for each in unit),
+    )
+    carried = contact_loads(aggregate, batch, bonds)
+    table = None
+    for each, force, moment in zip(by_order, carried.force, carried.moment, strict=True):
+        table = ContactResponse(
+            carried.normals, force.transpose(1, 2, 0), moment.transpose(1, 2, 0), each.order, coarser=table
+        )
+    assert table is not None
+    return table
+
+
+def _from_coarse_to_fine(response: RigidResponse) -> list[RigidResponse]:
+    finer = []
+    each: RigidResponse | None = response
+    while each is not None:
+        finer.append(each)
+        each = each.coarser
+    return finer[::-1]

@@ -10,7 +10,7 @@ import numpy as np
 from rheoclast import _checks
 from rheoclast._checks import FloatArray
 from rheoclast.hydrodynamics.free_draining import FreeDraining
-from rheoclast.hydrodynamics.model import HydrodynamicModel
+from rheoclast.hydrodynamics.model import Approximation, HydrodynamicModel
 from rheoclast.stokes.mobility import Progress
 
 
@@ -35,10 +35,11 @@ class ExposedArea(HydrodynamicModel):
 
     def elementary_loads(
         self, centers: FloatArray, radii: FloatArray, progress: Progress | None = None
-    ) -> list[FloatArray]:
+    ) -> list[Approximation]:
         """See `HydrodynamicModel.elementary_loads`."""
         (alone,) = FreeDraining().elementary_loads(centers, radii, progress)
-        return [exposed_fractions(centers, radii, self.rays)[:, None, None] * alone]
+        exposed = exposed_fractions(centers, radii, self.rays)
+        return [Approximation(exposed[:, None, None] * alone.loads)]
 
 
 def exposed_fractions(centers: FloatArray, radii: FloatArray, rays: int) -> FloatArray:

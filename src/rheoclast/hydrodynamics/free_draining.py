@@ -8,7 +8,7 @@ from typing import final
 import numpy as np
 
 from rheoclast._checks import FloatArray
-from rheoclast.hydrodynamics.model import HydrodynamicModel
+from rheoclast.hydrodynamics.model import Approximation, HydrodynamicModel
 from rheoclast.stokes.mobility import Progress
 from rheoclast.vectors import elementary_velocities
 
@@ -20,11 +20,11 @@ class FreeDraining(HydrodynamicModel):
 
     def elementary_loads(
         self, centers: FloatArray, radii: FloatArray, progress: Progress | None = None
-    ) -> list[FloatArray]:
+    ) -> list[Approximation]:
         """See `HydrodynamicModel.elementary_loads`."""
         loads = np.zeros((len(radii), 11, 11))
         loads[:, :3] = 6 * np.pi * radii[:, None, None] * elementary_velocities(centers).transpose(0, 2, 1)
         volume = (radii**3)[:, None, None]
         loads[:, 3:6, 3:6] = 8 * np.pi * volume * np.eye(3)
         loads[:, 6:, 6:] = 20 / 3 * np.pi * volume * np.eye(5)
-        return [loads]
+        return [Approximation(loads)]

@@ -3,9 +3,27 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from typing import NamedTuple
 
 from rheoclast._checks import FloatArray
 from rheoclast.stokes.mobility import Progress
+
+
+class Approximation(NamedTuple):
+    """Loads at one level of approximation.
+
+    Attributes
+    ----------
+    loads
+        (N, 11, 11). Row: three components of force, three of torque and five of stresslet (on `STRAIN_BASIS`), torque
+        and stresslet about the centre of the sphere. Column: three unit streams, three unit rotations about the
+        reference point and five unit strains in which the aggregate is held at rest.
+    order
+        Multipole order, if the model has one.
+    """
+
+    loads: FloatArray
+    order: int | None = None
 
 
 class HydrodynamicModel(ABC):
@@ -14,7 +32,7 @@ class HydrodynamicModel(ABC):
     @abstractmethod
     def elementary_loads(
         self, centers: FloatArray, radii: FloatArray, progress: Progress | None = None
-    ) -> list[FloatArray]:
+    ) -> list[Approximation]:
         """Force, torque and stresslet of the fluid on every sphere, dimensionless (viscosity one).
 
         Parameters
@@ -26,11 +44,8 @@ class HydrodynamicModel(ABC):
 
         Returns
         -------
-        loads
-            One array (N, 11, 11), or several of increasing accuracy of which the last is the answer. Row: three
-            components of force, three of torque and five of stresslet (on `STRAIN_BASIS`), torque and stresslet about
-            the centre of the sphere. Column: three unit streams, three unit rotations about the reference point and
-            five unit strains in which the aggregate is held at rest.
+        approximations
+            One, or several of increasing multipole order, of which the last is the answer.
         """
 
     def memory(self, count: int) -> float:

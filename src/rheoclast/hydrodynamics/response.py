@@ -10,15 +10,15 @@ import numpy as np
 from rheoclast import _checks
 from rheoclast._checks import FloatArray
 from rheoclast.flows import LinearFlow
+from rheoclast.hydrodynamics import free_body
 from rheoclast.hydrodynamics.model import HydrodynamicModel
 from rheoclast.hydrodynamics.motion import RigidMotion, Settling
 from rheoclast.loads import SphereLoads
 from rheoclast.particles.spheres import Spheres
 from rheoclast.scales import Scales, warn_of_radii, warn_of_viscosity
 from rheoclast.stokes.mobility import Progress
-from rheoclast.vectors import LEVI_CIVITA, STRAIN_BASIS, cross_matrix, elementary_velocities, strain_components
+from rheoclast.vectors import LEVI_CIVITA, STRAIN_BASIS, cross_matrix, strain_components
 
-SINGULAR = 1e-12
 ROUNDING = 1e-12
 DIMENSIONLESS_VISCOSITY = 1.0
 
@@ -58,8 +58,8 @@ def rigid_response(
     scales = Scales(float(spheres.radii.mean()), viscosity)
     centers = (spheres.centers - spheres.center_of_mass) / scales.length
     response = None
-    for loads in model.elementary_loads(centers, spheres.radii / scales.length, progress):
-        response = RigidResponse(spheres, model, scales, _checks.frozen(loads), response)
+    for loads, order in model.elementary_loads(centers, spheres.radii / scales.length, progress):
+        response = RigidResponse(spheres, model, scales, _checks.frozen(loads), order, response)
     assert response is not None
     return response
 
@@ -76,14 +76,17 @@ class RigidResponse:
         Units of length and viscosity.
     elementary_loads
         (N, 11, 11) dimensionless loads on every sphere, see `HydrodynamicModel.elementary_loads`.
+    order
+        Multipole order of the loads; None if the model has none.
     coarser
-        The response at the next lower accuracy (multipole order), if the model gives one.
+        The response at the next lower order; None for order 1 and for models without order.
     """
 
     spheres: Spheres
     model: HydrodynamicModel
     scales: Scales
     elementary_loads: FloatArray
+    order: int | None = None
     coarser: RigidResponse | None = None
 
     @property
@@ -129,8 +132,9 @@ class RigidResponse:
     @cached_property
     def strain_loads(self) -> SphereLoads:
         """Loads (5, N, 3) on the free aggregate's spheres in unit strain rates `STRAIN_BASIS`, in N s and N m s."""
+        loads = free_body.free_loads(self._centers, self.elementary_loads)
         size = float(np.abs(self.elementary_loads[:, :3, 6:]).max())
-        return self._dimensional(self._free_loads.transpose(2, 0, 1), ROUNDING * size)
+        return self._dimensional(loads.transpose(2, 0, 1), ROUNDING * size)
 
     @property
     def table(self) -> FloatArray:
@@ -197,37 +201,28 @@ class RigidResponse:
         return float(np.trace(free_stresslet)) / (10 * volume)
 
     @cached_property
+    def _centers(self) -> FloatArray:
+        """Centres (N, 3) of the spheres from `center`, in units of length."""
+        return (self.spheres.centers - self.center) / self.scales.length
+
+    @cached_property
     def _total_resistance(self) -> FloatArray:
-        """Total force, torque and stresslet about `center` in the elementary flows, (11, 11)."""
-        centers = (self.spheres.centers - self.center) / self.scales.length
-        total = np.einsum("nkc,ncl->kl", elementary_velocities(centers), self.elementary_loads[:, :3])
-        total[3:] += self.elementary_loads[:, 3:].sum(axis=0)
-        return total
+        return free_body.total_resistance(self._centers, self.elementary_loads)
 
     @cached_property
     def _mobility(self) -> FloatArray:
-        """Inverse (6, 6) of the resistance; a rotation without resistance is left out (order 1, spheres in line)."""
-        resistance = self._total_resistance[:6, :6]
-        inverse = np.linalg.pinv((resistance + resistance.T) / 2, rcond=SINGULAR, hermitian=True)
-        return np.asarray(inverse, dtype=np.float64)
+        return free_body.mobility(self._total_resistance)
 
     @cached_property
     def _strain_motion(self) -> FloatArray:
-        """Velocity and angular velocity of the free aggregate relative to the fluid, per strain component, (6, 5)."""
-        return self._mobility @ self._total_resistance[:6, 6:]
-
-    @cached_property
-    def _free_loads(self) -> FloatArray:
-        """Force and torque on every sphere of the free aggregate, per strain component, (N, 6, 5)."""
-        loads = self.elementary_loads[:, :6]
-        return loads[:, :, 6:] - loads[:, :, :6] @ self._strain_motion
+        return free_body.strain_motion(self._total_resistance)
 
     @cached_property
     def _offset_to_center_of_mobility(self) -> FloatArray:
         """From `center`, (3,): solves (tr M_ωω 1 − M_ωω)·p = axial vector of the skew part of M_ωU."""
         turning, mixed = self._mobility[3:, 3:], self._mobility[3:, :3]
         axial = np.einsum("ijk,jk->i", LEVI_CIVITA, mixed)
-        return np.linalg.pinv(np.trace(turning) * np.eye(3) - turning, rcond=SINGULAR, hermitian=True) @ axial
+        return np.linalg.pinv(np.trace(turning) * np.eye(3) - turning, rcond=free_body.SINGULAR, hermitian=True) @ axial
 
     @property
     def _units(self) -> FloatArray:

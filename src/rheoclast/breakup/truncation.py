@@ -1,0 +1,80 @@
+"""Error bars of contact loads: what the truncation of the multipoles leaves out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rheoclast._checks import FloatArray
+from rheoclast.breakup.contact_response import ContactResponse
+from rheoclast.flows import LinearFlow
+from rheoclast.hydrodynamics.truncation import LOWEST_ORDER, expected_error
+
+SHARES = {"tension": 1.0, "shear": 0.3, "bending": 0.35, "twisting": 0.35}
+"""Share of the change from order 1 to 2 that is expected as error at order 2; see `validation/truncation_error`."""
+
+
+@dataclass(frozen=True, eq=False)
+class TruncationError:
+    """Expected errors of the loads in every contact, each (C,) and positive.
+
+    Attributes
+    ----------
+    tension, shear
+        In N.
+    bending, twisting
+        In N m.
+    """
+
+    tension: FloatArray
+    shear: FloatArray
+    bending: FloatArray
+    twisting: FloatArray
+
+
+def truncation_error(table: ContactResponse, flow: LinearFlow) -> TruncationError:
+    """Expected error of every contact load in a flow, from comparing multipole orders that are already solved.
+
+    It is a root mean square over all orientations of a flow of this strength, so that it does not vanish where two
+    orders happen to agree in one orientation. In the calibration (trees, chains, compact and polydisperse clusters of 2
+    to 32 spheres, orders 2 to 5) the true error is below twice the estimate for at least 95 % of contacts. It tells of
+    truncation only, not of errors in the model.
+
+    Parameters
+    ----------
+    table
+        From `contact_response`, with hydrodynamics of order 2 or higher.
+    flow
+        Only the magnitude of its strain rate matters.
+
+    Raises
+    ------
+    ValueError
+        If the hydrodynamics has no order, or order 1, below which there is nothing to compare with.
+    """
+    if table.order is None or table.order < LOWEST_ORDER or table.coarser is None:
+        found = "a model without multipole order" if table.order is None else f"order {table.order}"
+        raise ValueError(f"table: expected hydrodynamics of order 2 or higher to compare orders, got {found}")
+    # The mean square of A : E over all rotations is |A|² |E|² / 5.
+    strength = float(np.linalg.norm(flow.strain_rate)) / np.sqrt(5)
+    orders = _last_three_orders(table)
+    errors = {
+        load: strength * expected_error([_part(load, each) for each in orders], table.order, (1, 2), share)
+        for load, share in SHARES.items()
+    }
+    return TruncationError(**errors)
+
+
+def _last_three_orders(table: ContactResponse) -> list[ContactResponse]:
+    orders = [table]
+    while len(orders) < 3 and orders[0].coarser is not None:
+        orders.insert(0, orders[0].coarser)
+    return orders
+
+
+def _part(load: str, table: ContactResponse) -> FloatArray:
+    """The part of force or moment (C, 3, 5) along the normal or across it."""
+    whole = table.force if load in ("tension", "shear") else table.moment
+    along = table.normals[:, :, None] * np.einsum("ci,cik->ck", table.normals, whole)[:, None]
+    return along if load in ("tension", "twisting") else whole - along
