@@ -23,6 +23,7 @@ CLUSTERS = {
     "doublet": (np.array([[0.0, 0, 0], [0, 0, 2]]), np.ones(2)),
     "turned doublet": (np.array([[0.0, 0, 0], [0, 0, 2]]) @ TURN.T, np.ones(2)),
     "unequal doublet": (np.array([[0.0, 0, 0], [0, 0, 1.5]]) @ TURN.T, np.array([0.5, 1.0])),
+    "very unequal doublet": (np.array([[0.0, 0, 0], [0, 0, 1.2]]) @ TURN.T, np.array([0.2, 1.0])),
     "bent trimer": (np.array([[2.0, 0, 0], [0, 0, 0], [-0.4, 0.0, np.sqrt(3.84)]]) @ TURN.T, np.ones(3)),
     "polydisperse five": sticking_cluster(5, 6, (0.5, 1.0)),
 }

@@ -65,7 +65,8 @@ def stress(
     gradient: options.Gradient = None,
     viscosity: options.Viscosity = 1e-3,
     model: options.ModelName = options.Model.stokesian,
-    order: options.Order = 2,
+    order: options.Order = "2",
+    accuracy: options.Accuracy = 0.02,
     material: options.MaterialName = "polystyrene",
     youngs_modulus: options.YoungsModulus = None,
     poisson_ratio: options.PoissonRatio = None,
@@ -96,7 +97,9 @@ def stress(
         overlap_tolerance=overlap_tolerance,
     )
     with progress_bar() as progress:
-        analysis = analyse(aggregate, chosen_flow, options.chosen_model(model, order), viscosity, law, progress)
+        analysis = analyse(
+            aggregate, chosen_flow, options.chosen_model(model, order, accuracy), viscosity, law, progress
+        )
     name = "gradient" if gradient else flow.value
     _report(str(file), name, analysis, output, as_json=as_json, dimensionless=dimensionless)
 
@@ -130,7 +133,8 @@ def info(
     tolerance: options.Tolerance = CONTACT_TOLERANCE,
     overlap_tolerance: options.OverlapTolerance = CONTACT_TOLERANCE,
     model: options.ModelName = options.Model.stokesian,
-    order: options.Order = 2,
+    order: options.Order = "2",
+    accuracy: options.Accuracy = 0.02,
     as_json: options.Json = False,
     dimensionless: options.Dimensionless = False,
 ) -> None:
@@ -149,7 +153,7 @@ def info(
     length, name = (float(aggregate.spheres.radii.mean()), "a") if dimensionless else (1.0, "m")
     with progress_bar() as progress:
         # A response with unit viscosity: neither measure depends on the viscosity.
-        response = rigid_response(aggregate.spheres, options.chosen_model(model, order), 1.0, progress)
+        response = rigid_response(aggregate.spheres, options.chosen_model(model, order, accuracy), 1.0, progress)
     summary = {
         **shape_summary(aggregate, length),
         "hydrodynamic_radius": response.hydrodynamic_radius / length,

@@ -10,6 +10,7 @@ import numpy as np
 import typer
 
 from rheoclast.flows import LinearFlow, biaxial_extension, planar_extension, simple_shear, uniaxial_extension
+from rheoclast.hydrodynamics.exposed_area import ExposedArea
 from rheoclast.hydrodynamics.free_draining import FreeDraining
 from rheoclast.hydrodynamics.model import HydrodynamicModel
 from rheoclast.hydrodynamics.stokesian_dynamics import StokesianDynamics
@@ -34,6 +35,7 @@ class Model(StrEnum):
 
     stokesian = "stokesian"
     free_draining = "free-draining"
+    exposed_area = "exposed-area"
 
 
 FLOWS = {
@@ -80,7 +82,12 @@ Gradient = Annotated[
 ]
 Viscosity = Annotated[float, typer.Option(help="Viscosity of the liquid, Pa s.", rich_help_panel=LIQUID)]
 ModelName = Annotated[Model, typer.Option("--model", help="Hydrodynamic model.", rich_help_panel=LIQUID)]
-Order = Annotated[int, typer.Option(help="Multipole order: 2 is force-torque-stresslet.", rich_help_panel=LIQUID)]
+Order = Annotated[
+    str, typer.Option(help="Multipole order (2 is force-torque-stresslet), or auto.", rich_help_panel=LIQUID)
+]
+Accuracy = Annotated[
+    float, typer.Option(help="With --order auto: largest error of the loads, as a share.", rich_help_panel=LIQUID)
+]
 MaterialName = Annotated[
     str, typer.Option("--material", help=f"One of: {', '.join(MATERIALS)}.", rich_help_panel=BONDS)
 ]
@@ -140,9 +147,18 @@ def chosen_flow(name: Flow, rate: float, gradient: str | None) -> LinearFlow:
     return LinearFlow(numbers.reshape(3, 3))
 
 
-def chosen_model(name: Model, order: int) -> HydrodynamicModel:
-    """The hydrodynamic model by name."""
-    return StokesianDynamics(order) if name is Model.stokesian else FreeDraining()
+def chosen_model(name: Model, order: str, accuracy: float) -> HydrodynamicModel:
+    """The hydrodynamic model by name, with its order."""
+    if name is Model.free_draining:
+        return FreeDraining()
+    if name is Model.exposed_area:
+        return ExposedArea()
+    if order == "auto":
+        return StokesianDynamics("auto", accuracy)
+    try:
+        return StokesianDynamics(int(order))
+    except ValueError:
+        raise ValueError(f"--order: expected an integer of at least 1, or auto, got {order!r}") from None
 
 
 def chosen_material(

@@ -83,4 +83,6 @@ def _failure_rows(table: Table, orientation: str, failure: dict[str, Any], units
     table.add_row(f"critical contact, {orientation}", where)
     strength = _quoted(failure["pull_off_force"], units["force"])
     table.add_row("fails by", f"{failure['criterion']}, pull-off force {strength}")
-    table.add_row("critical rate", f"[bold]{failure['critical_rate']:.4g} {units['rate']}[/bold]")
+    error = failure["critical_rate_error"]
+    margin = "" if error is None else f", ± {error:.1%} from the multipole order"
+    table.add_row("critical rate", f"[bold]{failure['critical_rate']:.4g} {units['rate']}[/bold]{margin}")

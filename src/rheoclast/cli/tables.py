@@ -10,7 +10,6 @@ from rheoclast._checks import FloatArray, IntArray
 from rheoclast.breakup.initiation import Initiation
 from rheoclast.cli.analysis import Analysis
 from rheoclast.cli.units import Units
-from rheoclast.hydrodynamics.stokesian_dynamics import StokesianDynamics
 from rheoclast.mechanics.criteria import load_ratios
 from rheoclast.particles.aggregate import Aggregate
 from rheoclast.particles.morphology import coordination_numbers, depth, radius_of_gyration
@@ -35,6 +34,20 @@ def contact_columns(analysis: Analysis, units: Units) -> Columns:
         f"force{force}": loads.force / units.force,
         f"moment{moment}": loads.moment / units.moment,
         "depth": depth(aggregate, aggregate.contact_points),
+        **_error_columns(analysis, units),
+    }
+
+
+def _error_columns(analysis: Analysis, units: Units) -> Columns:
+    """Expected truncation errors; no columns where they are not known."""
+    error = analysis.truncation
+    if error is None:
+        return {}
+    return {
+        f"tension_error{units.tags.force}": error.tension / units.force,
+        f"shear_error{units.tags.force}": error.shear / units.force,
+        f"bending_error{units.tags.moment}": error.bending / units.moment,
+        f"twisting_error{units.tags.moment}": error.twisting / units.moment,
     }
 
 
@@ -99,7 +112,7 @@ def stress_summary(analysis: Analysis, units: Units) -> dict[str, Any]:
         },
         "model": {
             "name": type(model).__name__,
-            "order": model.order if isinstance(model, StokesianDynamics) else None,
+            "order": analysis.response.order,
             "viscosity_Pa_s": analysis.response.viscosity,
         },
         "flow": {"gradient_per_s": analysis.flow.gradient.tolist(), "rate_per_s": analysis.flow.rate},
@@ -131,7 +144,17 @@ def _failure(analysis: Analysis, first: Initiation, units: Units) -> dict[str, A
         "pair": aggregate.pairs[first.contact].tolist(),
         "criterion": first.criterion,
         "critical_rate": first.rate / units.rate,
+        "critical_rate_error": _error_of_rate(analysis, first),
         "pull_off_force": float(strength) / units.force,
         "depth": float(depth(aggregate, aggregate.contact_points[first.contact])),
         "flow_gradient_per_s": first.flow.gradient.tolist(),
     }
+
+
+def _error_of_rate(analysis: Analysis, first: Initiation) -> float | None:
+    """Expected relative error of a critical rate from truncation: that of the tension of the contact that fails."""
+    if first.contact is None or first.criterion != "tension" or analysis.truncation is None:
+        return None
+    strength = analysis.bonds.strength(len(analysis.aggregate.pairs))[first.contact, 0]
+    share_of_rate = analysis.flow.magnitude / first.flow.magnitude
+    return float(analysis.truncation.tension[first.contact] / (share_of_rate * strength))

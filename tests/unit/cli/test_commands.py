@@ -135,6 +135,34 @@ class TestStress:
         _, out, _ = run("stress", small, "--unit", "um", "--model", "free-draining", "--json")
         assert json.loads(out)["model"] == {"name": "FreeDraining", "order": None, "viscosity_Pa_s": 1e-3}
 
+    def test_error_bars(self, run, small, tmp_path):
+        """The columns are the library's estimate, and the critical rate errs by the share its tension does."""
+        _, out, _ = run("stress", small, "--unit", "um", "--order", 3, "--json", "--output", tmp_path / "results")
+        chain = rc.read(small, "um")
+        table = rc.contact_response(chain, rc.rigid_response(chain.spheres, rc.StokesianDynamics(3), viscosity=1e-3))
+        flow = rc.simple_shear(1.0)
+        expected, tension = rc.truncation_error(table, flow), table.loads(flow).tension
+        written = [float(row["tension_error_N"]) for row in rows(tmp_path / "results" / "contacts.csv")]
+        np.testing.assert_allclose(written, expected.tension, rtol=1e-9)
+        failure = json.loads(out)["given_orientation"]
+        contact = failure["contact"]
+        assert failure["critical_rate_error"] == pytest.approx(expected.tension[contact] / tension[contact])
+
+    def test_no_error_bars_without_lower_order(self, run, small):
+        for arguments in (["--order", 1], ["--model", "free-draining"], ["--model", "exposed-area"]):
+            _, out, _ = run("stress", small, "--unit", "um", *arguments, "--json")
+            assert json.loads(out)["given_orientation"]["critical_rate_error"] is None
+
+    def test_automatic_order(self, run, small):
+        orders = [
+            json.loads(run("stress", small, "--unit", "um", "--order", "auto", "--accuracy", a, "--json")[1])["model"][
+                "order"
+            ]
+            for a in (0.5, 0.02, 0.002)
+        ]
+        assert orders[0] == 2
+        assert orders == sorted(set(orders))
+
     def test_compressed_doublet_does_not_fail(self, run, tmp_path):
         path = tmp_path / "doublet.dat"
         path.write_text("0 0 0 1\n2 0 0 1\n")
@@ -176,7 +204,8 @@ class TestRefusals:
             (["--rate", "-1"], "rate: expected zero or a positive number, got -1"),
             (["--viscosity", "0"], "viscosity: expected a positive number, got 0"),
             (["--material", "gold"], "--material: expected one of polystyrene, got 'gold'"),
-            (["--order", "0"], "order: expected an integer of at least 1, got 0"),
+            (["--order", "0"], "--order: expected an integer of at least 1, or auto, got '0'"),
+            (["--order", "two"], "--order: expected an integer of at least 1, or auto, got 'two'"),
             (["--stiffness", "1", "1", "1", "1"], "add --pull-off"),
             (["--pull-off", "-1"], "force: expected a positive number, got -1"),
             (["--unit", "parsec"], "parsec"),
