@@ -22,8 +22,13 @@ def real_array(
     A string in `shape` stands for any length and names it in the message; the first axis counts the items.
     """
     try:
-        array = np.array(value, dtype=np.float64)
+        given = np.asarray(value)
+        if given.dtype.kind not in "biuf":
+            raise TypeError
+        array = given.astype(np.float64)
     except (TypeError, ValueError):
+        if not shape:
+            raise ValueError(f"{name}: expected a number, got {value!r:.60}") from None
         raise ValueError(f"{name}: expected numbers in an array of shape {_shown(shape)}, got {value!r:.60}") from None
     fits = array.ndim == len(shape) and all(
         isinstance(want, str) or want == got for want, got in zip(shape, array.shape, strict=True)
@@ -84,3 +89,16 @@ def frozen(array: NDArray[Any]) -> NDArray[Any]:
 
 def _shown(shape: tuple[int | str, ...]) -> str:
     return "(" + ", ".join(map(str, shape)) + ("," if len(shape) == 1 else "") + ")"
+
+
+def instance(name: str, value: object, kind: type, advice: str) -> None:
+    """Refuse a value of another type.
+
+    Raises
+    ------
+    TypeError
+        With the types expected and received, and what to do.
+    """
+    if not isinstance(value, kind):
+        got = f"the class {value.__name__}" if isinstance(value, type) else type(value).__name__
+        raise TypeError(f"{name}: expected {kind.__name__}, got {got}; {advice}")

@@ -13,6 +13,8 @@ from rheoclast._checks import FloatArray
 from rheoclast.vectors import LEVI_CIVITA
 
 TRACE_TOLERANCE = 1e-9
+ROUNDING = 1e-14
+LARGEST_RATE = 1e100  # 1/s; beyond it products overflow
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +27,8 @@ class LinearFlow:
         Velocity gradient Γ (3, 3) in 1/s, Γ[i, j] = ∂u_i/∂x_j, with zero trace.
     rate
         The rate by which the flow is quoted, 1/s: the shear rate of a simple shear, the extension rate of an
-        extension. Defaults to the magnitude sqrt(2 E:E), which is the shear rate in simple shear.
+        extension. Defaults to the magnitude sqrt(2 E:E), which is the shear rate in simple shear. To change the speed
+        of a flow use `scaled`, which keeps gradient and rate together.
 
     Raises
     ------
@@ -34,7 +37,7 @@ class LinearFlow:
     """
 
     gradient: FloatArray
-    rate: float | None = None
+    rate: float = None  # type: ignore[assignment]  # replaced by the magnitude
 
     def __post_init__(self) -> None:
         gradient = _checks.real_array("gradient", self.gradient, (3, 3))
@@ -44,14 +47,21 @@ class LinearFlow:
                 f"gradient: expected zero trace (an incompressible flow), got {trace:g}; "
                 f"subtract trace/3 = {trace / 3:g} from the diagonal if it is rounding"
             )
+        if size > LARGEST_RATE:
+            raise ValueError(f"gradient: expected rates up to {LARGEST_RATE:g} 1/s, got {size:.3g}; check the unit")
         object.__setattr__(self, "gradient", gradient)
-        rate = _checks.not_negative("rate", self.magnitude if self.rate is None else self.rate)
+        rate = self.magnitude if self.rate is None else _checks.not_negative("rate", self.rate)
+        if rate == 0 < self.magnitude:
+            raise ValueError(f"rate: expected a positive number for a flow of magnitude {self.magnitude:.3g}, got 0")
         object.__setattr__(self, "rate", rate)
 
     @cached_property
     def strain_rate(self) -> FloatArray:
         """Strain rate E = (Γ + Γᵀ)/2, (3, 3), in 1/s."""
-        return _checks.frozen(0.5 * (self.gradient + self.gradient.T))
+        strain_rate = 0.5 * (self.gradient + self.gradient.T)
+        if np.abs(strain_rate).max() <= ROUNDING * np.abs(self.gradient).max():
+            strain_rate = np.zeros((3, 3))  # a rotation, and rounding
+        return _checks.frozen(strain_rate)
 
     @cached_property
     def angular_velocity(self) -> FloatArray:
@@ -83,7 +93,6 @@ class LinearFlow:
     def scaled(self, factor: float) -> LinearFlow:
         """The same flow, `factor` ≥ 0 times as fast."""
         factor = _checks.not_negative("factor", factor)
-        assert self.rate is not None
         return LinearFlow(factor * self.gradient, factor * self.rate)
 
 

@@ -209,7 +209,7 @@ def test_jkr_bonds_carry_load_in_si():
         ("youngs_modulus", np.inf, r"^youngs_modulus: expected a finite number, got inf$"),
         ("work_of_adhesion", -0.1, r"^work_of_adhesion: expected a positive number, got -0\.1$"),
         ("work_of_adhesion", 0.0, r"^work_of_adhesion: expected a positive number, got 0$"),
-        ("work_of_adhesion", "strong", r"^work_of_adhesion: expected numbers? .*'strong'"),
+        ("work_of_adhesion", "strong", r"^work_of_adhesion: expected a number, got 'strong'$"),
     ],
 )
 def test_refused_materials(name, value, message):

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rheoclast import _checks
 from rheoclast._checks import FloatArray
 from rheoclast.errors import GeometryError
 from rheoclast.flows import LinearFlow
@@ -14,6 +15,7 @@ from rheoclast.loads import SphereLoads
 from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.contact_loads import ContactLoads, contact_loads
 from rheoclast.particles.aggregate import Aggregate
+from rheoclast.particles.spheres import Spheres
 from rheoclast.vectors import strain_components, strain_tensor
 
 
@@ -38,6 +40,11 @@ class ContactResponse:
     moment: FloatArray
     order: int | None = None
     coarser: ContactResponse | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("normals", "force", "moment"):
+            array = getattr(self, name)
+            object.__setattr__(self, name, _checks.real_array(name, array, array.shape))
 
     @property
     def map(self) -> FloatArray:
@@ -93,10 +100,7 @@ def contact_response(aggregate: Aggregate, response: RigidResponse, bonds: Bonds
     ValueError
         As `contact_loads`.
     """
-    same = len(aggregate) == len(response.spheres) and np.allclose(
-        aggregate.spheres.centers, response.spheres.centers, rtol=0, atol=1e-9 * response.scales.length
-    )
-    if not same:
+    if not _same_spheres(aggregate.spheres, response.spheres, 1e-9 * response.scales.length):
         raise GeometryError(
             f"the response was solved for other spheres ({len(response.spheres)}) than those of the aggregate "
             f"({len(aggregate)}); solve rigid_response(aggregate.spheres, ...) first"
@@ -116,6 +120,13 @@ def contact_response(aggregate: Aggregate, response: RigidResponse, bonds: Bonds
         )
     assert table is not None
     return table
+
+
+def _same_spheres(ours: Spheres, theirs: Spheres, tolerance: float) -> bool:
+    return len(ours) == len(theirs) and all(
+        np.allclose(a, b, rtol=0, atol=tolerance)
+        for a, b in ((ours.centers, theirs.centers), (ours.radii, theirs.radii))
+    )
 
 
 def _from_coarse_to_fine(response: RigidResponse) -> list[RigidResponse]:

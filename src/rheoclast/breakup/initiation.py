@@ -45,12 +45,12 @@ def worst_initiation(table: ContactResponse, bonds: Bonds, flow: LinearFlow) -> 
     """First failure in tension over all orientations of the aggregate in the flow, in closed form."""
     ratios = table.worst_tension(flow) / bonds.strength(len(table.normals))[:, 0]
     contact = int(ratios.argmax())
-    return _first(contact, "tension", float(ratios[contact]), flow.rotated(table.worst_orientation(flow)[contact]))
+    turned = flow.rotated(table.worst_orientation(flow)[contact]) if ratios[contact] > 0 else flow
+    return _first(contact, "tension", float(ratios[contact]), turned)
 
 
 def _first(contact: int, criterion: str, ratio: float, flow: LinearFlow) -> Initiation:
     if not ratio > 0:
         return Initiation(None, None, np.inf, flow)
     critical = flow.scaled(1 / ratio)
-    assert critical.rate is not None
     return Initiation(contact, criterion, critical.rate, critical)

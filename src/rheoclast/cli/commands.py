@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import sys
 from collections.abc import Sequence
@@ -12,7 +13,7 @@ from typing import Annotated, Any
 import typer
 
 import rheoclast
-from rheoclast import io
+from rheoclast import io as files
 from rheoclast.cli import options, results
 from rheoclast.cli.analysis import Analysis, analyse
 from rheoclast.cli.console import plain_speech, progress_bar, screen
@@ -32,8 +33,12 @@ app = typer.Typer(no_args_is_help=True, pretty_exceptions_enable=False, rich_mar
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line on arguments, by default those of the process."""
     given = list(sys.argv[1:] if arguments is None else arguments)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")  # screens that lack a character show a question mark
     with plain_speech(debug="--debug" in given):
-        app([argument for argument in given if argument != "--debug"])
+        status = app([argument for argument in given if argument != "--debug"] or ["--help"], standalone_mode=False)
+        raise SystemExit(status or 0)
 
 
 def _show_version(wanted: bool) -> None:
@@ -61,7 +66,7 @@ def stress(
     tolerance: options.Tolerance = CONTACT_TOLERANCE,
     overlap_tolerance: options.OverlapTolerance = CONTACT_TOLERANCE,
     flow: options.FlowName = options.Flow.shear,
-    rate: options.Rate = 1.0,
+    rate: options.Rate = None,
     gradient: options.Gradient = None,
     viscosity: options.Viscosity = 1e-3,
     model: options.ModelName = options.Model.stokesian,
@@ -88,7 +93,7 @@ def stress(
     law = options.chosen_law(
         options.chosen_material(material, youngs_modulus, poisson_ratio, work_of_adhesion), pull_off, stiffness
     )
-    aggregate = io.read(
+    aggregate = files.read(
         file,
         options.length_unit(unit),
         format=file_format,
@@ -111,17 +116,22 @@ def _report(
     units = Units.dimensionless(analysis) if dimensionless else Units()
     summary = {"rheoclast": rheoclast.__version__, "file": file, **stress_summary(analysis, units)}
     summary["flow"]["name"] = flow
-    written = results.write_results(output, analysis, summary, units) if output is not None else []
+    text = _json(summary)
+    if output is not None:
+        results.write_results(output, analysis, text, units)
     if as_json:
-        _print_json(summary)
+        typer.echo(text)
         return
     show_stress(file, summary)
-    if written:
-        screen.print(f"written to {output}: {', '.join(path.name for path in written)}", soft_wrap=True)
+    if output is not None:
+        screen.print(f"written to {output}: {', '.join(results.FILES)}", soft_wrap=True, markup=False)
 
 
-def _print_json(summary: dict[str, Any]) -> None:
-    typer.echo(json.dumps(summary, indent=2))
+def _json(summary: dict[str, Any]) -> str:
+    try:
+        return json.dumps(summary, indent=2, allow_nan=False)
+    except ValueError:
+        raise ArithmeticError("a result is too large for a number; check rate, viscosity and strength") from None
 
 
 @app.command()
@@ -142,7 +152,7 @@ def info(
 
     [bold]Example:[/bold] rheoclast info floc.dat --unit nm
     """
-    aggregate = io.read(
+    aggregate = files.read(
         file,
         options.length_unit(unit),
         format=file_format,
@@ -160,7 +170,7 @@ def info(
         "intrinsic_viscosity": response.intrinsic_viscosity,
     }
     if as_json:
-        _print_json({"rheoclast": rheoclast.__version__, "file": str(file), **summary, "units": {"length": name}})
+        typer.echo(_json({"rheoclast": rheoclast.__version__, "file": str(file), **summary, "units": {"length": name}}))
     else:
         show_shape(str(file), summary, name)
 
@@ -178,7 +188,7 @@ def demo(
     floc = resources.files("rheoclast") / "data" / "demo_floc.dat"
     with resources.as_file(floc) as path, progress_bar() as progress:
         analysis = analyse(
-            io.read(path, "nm"),
+            files.read(path, "nm"),
             simple_shear(1e5),
             StokesianDynamics(order=2),
             1e-3,
@@ -190,4 +200,5 @@ def demo(
         f"look at {output / 'aggregate.png'}; next, your own spheres: "
         "rheoclast stress FILE --unit nm --flow shear --rate 1e5 --output results",
         soft_wrap=True,
+        markup=False,
     )

@@ -7,11 +7,15 @@ import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+import typer
 from rich.console import Console
 from rich.markup import escape
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 SECONDS_WITHOUT_PROGRESS = 2.0
+
+REFUSALS = (ValueError, TypeError, OSError, ArithmeticError, MemoryError)
+UsageProblem: type[typer.BadParameter] = typer.BadParameter.__mro__[2]  # the exception of all wrong options
 
 screen = Console(highlight=False)
 messages = Console(stderr=True, highlight=False)
@@ -21,14 +25,22 @@ messages = Console(stderr=True, highlight=False)
 def plain_speech(debug: bool) -> Iterator[None]:
     """Turn errors of the input into one line and exit status 1, and warnings into one line each, unless debugging."""
     with warnings.catch_warnings(record=not debug) as caught:
-        warnings.simplefilter("always")
+        warnings.simplefilter("always", UserWarning)
+        if not debug:
+            warnings.simplefilter("ignore", RuntimeWarning)  # of NumPy; what overflows is refused
         try:
             yield
-        except (ValueError, OSError, ArithmeticError, MemoryError) as error:
+        except REFUSALS as error:
             if debug:
                 raise
             messages.print(f"[red]error:[/red] {_one_line(error)}", soft_wrap=True)
             raise SystemExit(1) from None
+        except UsageProblem as problem:
+            messages.print(f"[red]error:[/red] {_one_line(problem.format_message())}", soft_wrap=True)
+            raise SystemExit(2) from None
+        except (KeyboardInterrupt, typer.Abort):
+            messages.print("interrupted; nothing was written", soft_wrap=True)
+            raise SystemExit(130) from None
         finally:
             for text in dict.fromkeys(_one_line(warning.message) for warning in caught or ()):
                 messages.print(f"[yellow]warning:[/yellow] {text}", soft_wrap=True)

@@ -73,7 +73,10 @@ OverlapTolerance = Annotated[
     float, typer.Option(help="Largest overlap that counts as touching, in mean radii.", rich_help_panel=AGGREGATE)
 ]
 FlowName = Annotated[Flow, typer.Option("--flow", help="Kind of flow.", rich_help_panel=FLOW)]
-Rate = Annotated[float, typer.Option(help="Shear or extension rate, 1/s.", rich_help_panel=FLOW)]
+Rate = Annotated[
+    float | None,
+    typer.Option(help="Shear or extension rate, 1/s; by default 1.", rich_help_panel=FLOW, show_default=False),
+]
 Gradient = Annotated[
     str | None,
     typer.Option(
@@ -133,10 +136,12 @@ def length_unit(text: str) -> str | float:
         return text
 
 
-def chosen_flow(name: Flow, rate: float, gradient: str | None) -> LinearFlow:
+def chosen_flow(name: Flow, rate: float | None, gradient: str | None) -> LinearFlow:
     """The flow by name and rate, or by its gradient."""
     if gradient is None:
-        return FLOWS[name](rate)
+        return FLOWS[name](1.0 if rate is None else rate)
+    if rate is not None:
+        raise ValueError("--rate: a flow given by its --gradient has no rate of its own; leave one of them out")
     words = gradient.replace(",", " ").split()
     try:
         numbers = np.array([float(word) for word in words])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from rich.markup import escape
 from rich.table import Table
 
 from rheoclast.cli.console import screen
@@ -42,7 +43,7 @@ def _quoted(value: float, unit: str) -> str:
 
 
 def _table(title: str) -> Table:
-    table = Table(title=title, show_header=False, title_justify="left", title_style="bold")
+    table = Table(title=escape(title), show_header=False, title_justify="left", title_style="bold")
     table.add_column(style="cyan")
     table.add_column()
     return table

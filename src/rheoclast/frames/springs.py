@@ -11,7 +11,7 @@ from scipy.sparse.linalg import SuperLU, splu
 from rheoclast._checks import FloatArray, IntArray
 from rheoclast.frames.equilibrium import equilibrium_matrix
 
-BALANCE_TOLERANCE = 1e-13
+ROUNDING = 1e-13
 MOST_REFINEMENTS = 12
 
 
@@ -48,16 +48,18 @@ class SpringFrame:
         cases = loads.reshape(-1, loads.shape[-1])
         size = np.abs(cases).max(axis=0)
         carried = np.zeros((self.stress.shape[0], cases.shape[1]))
-        unbalanced = cases
+        unbalanced, left = cases, size
         for _ in range(MOST_REFINEMENTS):
             carried += self.stress[:, 6:] @ self.factor.solve(unbalanced[6:])
             unbalanced = cases + self.equilibrium @ carried
-            left, largest = np.abs(unbalanced[6:]).max(axis=0), np.abs(carried).max(axis=0)
-            if (left <= BALANCE_TOLERANCE * np.maximum(largest, size)).all():
-                return carried.reshape(-1, 6, cases.shape[1])
+            before, left = left, np.abs(unbalanced[6:]).max(axis=0)
+            if (left <= ROUNDING * size).all() or (left > 0.5 * before).all():
+                break
+        if (left <= ROUNDING * np.maximum(np.abs(carried).max(axis=0), size)).all():
+            return carried.reshape(-1, 6, cases.shape[1])
         raise ArithmeticError(
             f"the frame of {len(cases) // 6} spheres does not balance: {left.max():.2g} of a largest load "
-            f"{size.max():.2g} is left after {MOST_REFINEMENTS} refinements; "
+            f"{size.max():.2g} is left after refinement; "
             "bring the stiffnesses closer together, or use statics if the contacts form a tree"
         )
 
@@ -80,7 +82,12 @@ def spring_frame(nodes: FloatArray, pairs: IntArray, points: FloatArray, stiffne
     total = csr_array(-equilibrium @ stress)
     held = total[6:, 6:].tocsc()
     # Positive definite: pivots stay on the diagonal, and a symmetric ordering halves the fill.
-    factor = splu(held, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    try:
+        factor = splu(held, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    except RuntimeError:  # SuperLU met a pivot of zero
+        raise ArithmeticError(
+            "the frame is singular to rounding: the stiffnesses differ by too many decades; bring them closer together"
+        ) from None
     return SpringFrame(equilibrium, stress, factor)
 
 

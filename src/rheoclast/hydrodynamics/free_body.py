@@ -20,6 +20,13 @@ def total_resistance(centers: FloatArray, loads: FloatArray) -> FloatArray:
     return total
 
 
+def total_load(centers: FloatArray, loads: FloatArray) -> FloatArray:
+    """Total force and torque (6, K) about the reference point of force and torque (N, 6, K) on the spheres."""
+    total = loads.sum(axis=0)
+    total[3:] += np.cross(centers[:, :, None], loads[:, :3], axis=1).sum(axis=0)
+    return total
+
+
 def mobility(resistance: FloatArray) -> FloatArray:
     """Inverse (6, 6) of the resistance to rigid motion.
 
@@ -36,5 +43,7 @@ def strain_motion(resistance: FloatArray) -> FloatArray:
 
 def free_loads(centers: FloatArray, loads: FloatArray) -> FloatArray:
     """Force and torque on every sphere of the free aggregate, per strain component, (N, 6, 5)."""
-    motion = strain_motion(total_resistance(centers, loads))
-    return loads[:, :6, 6:] - loads[:, :6, :6] @ motion
+    resistance = total_resistance(centers, loads)
+    free = loads[:, :6, 6:] - loads[:, :6, :6] @ strain_motion(resistance)
+    # What is left is a difference of much larger loads: its rounding is moved away in the same manner.
+    return free - loads[:, :6, :6] @ (mobility(resistance) @ total_load(centers, free))

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rheoclast import _checks
 from rheoclast._checks import FloatArray
 from rheoclast.loads import SphereLoads
 
@@ -27,6 +28,10 @@ class RigidMotion:
     velocity: FloatArray
     angular_velocity: FloatArray
     center: FloatArray
+
+    def __post_init__(self) -> None:
+        for name in ("velocity", "angular_velocity", "center"):
+            object.__setattr__(self, name, _checks.real_array(name, getattr(self, name), (3,)))
 
     def at(self, points: FloatArray) -> FloatArray:
         """Velocity (..., 3) in m/s of points (..., 3) of the aggregate, in m."""

@@ -51,6 +51,8 @@ def rigid_response(
     UnitWarning
         If radii exceed 1 mm or the viscosity 1000 Pa s.
     """
+    _checks.instance("spheres", spheres, Spheres, "of an aggregate take aggregate.spheres")
+    _checks.instance("model", model, HydrodynamicModel, "for instance StokesianDynamics(order=2)")
     viscosity = _checks.positive("viscosity", viscosity)
     if viscosity != DIMENSIONLESS_VISCOSITY:
         warn_of_radii(spheres.radii)
@@ -147,7 +149,8 @@ class RigidResponse:
 
         Symmetric and positive definite. Velocities in m/s, rotations and strains in 1/s.
         """
-        return self._total_resistance * np.outer(self._units, self._units) * self.viscosity * self.scales.length
+        units = np.outer(self._units, self._units) * self.viscosity * self.scales.length
+        return _checks.frozen(self._total_resistance * units)
 
     @property
     def resistance(self) -> FloatArray:
@@ -160,12 +163,13 @@ class RigidResponse:
 
         At order 1 a sphere has no resistance to rotation; what then turns freely has zero mobility here.
         """
-        return self._mobility / (np.outer(self._units[:6], self._units[:6]) * self.viscosity * self.scales.length)
+        units = np.outer(self._units[:6], self._units[:6]) * self.viscosity * self.scales.length
+        return _checks.frozen(self._mobility / units)
 
     @cached_property
     def translation_coupling(self) -> FloatArray:
         """Tensor C (3, 3, 3) in m: velocity of `center` minus that of the flow there = C : E."""
-        return self.scales.length * np.einsum("ik,kab->iab", self._strain_motion[:3], STRAIN_BASIS)
+        return _checks.frozen(self.scales.length * np.einsum("ik,kab->iab", self._strain_motion[:3], STRAIN_BASIS))
 
     @cached_property
     def rotation_coupling(self) -> FloatArray:
@@ -173,7 +177,7 @@ class RigidResponse:
 
         For a body of revolution about p this is Jeffery's B p × (E·p) with Bretherton's constant B.
         """
-        return np.einsum("ik,kab->iab", self._strain_motion[3:], STRAIN_BASIS)
+        return _checks.frozen(np.einsum("ik,kab->iab", self._strain_motion[3:], STRAIN_BASIS))
 
     @property
     def center_of_mobility(self) -> FloatArray:

@@ -37,6 +37,14 @@ class ContactLoads:
     force: FloatArray
     moment: FloatArray
 
+    def __post_init__(self) -> None:
+        normals = _checks.real_array("normals", self.normals, ("C", 3))
+        object.__setattr__(self, "normals", normals)
+        for name in ("force", "moment"):
+            array = getattr(self, name)
+            shape = (*np.shape(array)[:-2], *normals.shape)
+            object.__setattr__(self, name, _checks.real_array(name, array, shape))
+
     @property
     def tension(self) -> FloatArray:
         """Normal force (..., C) in N, positive when the contact is pulled apart."""
@@ -104,8 +112,8 @@ def contact_loads(
     force, moment = size * carried[:, :3], size * length * carried[:, 3:]
     return ContactLoads(
         aggregate.normals,
-        _checks.frozen(force.transpose(2, 0, 1).reshape(shape)),
-        _checks.frozen(moment.transpose(2, 0, 1).reshape(shape)),
+        force.transpose(2, 0, 1).reshape(shape),
+        moment.transpose(2, 0, 1).reshape(shape),
     )
 
 
@@ -133,6 +141,8 @@ def _by_statics(aggregate: Aggregate, bonds: Bonds | None, method: Method) -> bo
 
 
 def _check(aggregate: Aggregate, loads: SphereLoads) -> None:
+    _checks.instance("aggregate", aggregate, Aggregate, "for instance Aggregate.touching(spheres)")
+    _checks.instance("loads", loads, SphereLoads, "for instance response.loads(flow)")
     if len(aggregate.pairs) == 0:
         raise ValueError("the aggregate is a single sphere and has no contact; expected at least two touching spheres")
     if loads.force.shape[-2] != len(aggregate):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,6 +12,10 @@ from rheoclast import _checks
 from rheoclast._checks import FloatArray
 from rheoclast.errors import GeometryError
 from rheoclast.particles.contacts import CONTACT_TOLERANCE, near_pairs
+
+ROUNDING = 1e-12
+LARGEST_OVERLAP = 2 * (1 - 1e-9)  # mean radii: beyond it two spheres of like size are at one place
+EXTREME_LENGTH = 1e50
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +54,8 @@ class Spheres:
         object.__setattr__(self, "centers", centers)
         object.__setattr__(self, "radii", radii)
         _checks.not_negative("overlap_tolerance", self.overlap_tolerance)
+        for name, lengths in (("centers", centers), ("radii", radii)):
+            _refuse_extreme(name, lengths)
         _refuse_overlap(centers, radii, self.overlap_tolerance)
 
     def __len__(self) -> int:
@@ -75,18 +82,34 @@ class Spheres:
         return np.average(self.centers, axis=0, weights=self.volumes)
 
 
+def _refuse_extreme(name: str, lengths: FloatArray) -> None:
+    """Refuse lengths whose powers overflow."""
+    extreme = (np.abs(lengths) > EXTREME_LENGTH) | ((lengths != 0) & (np.abs(lengths) < 1 / EXTREME_LENGTH))
+    if (name == "radii" and extreme.any()) or (np.abs(lengths) > EXTREME_LENGTH).any():
+        item = tuple(int(k) for k in np.argwhere(extreme)[0])
+        raise ValueError(
+            f"{name}{list(item)}: expected a length between 1e-50 and 1e50, got {lengths[item]:.3g}; check the unit"
+        )
+
+
+def _rounded_up(value: float) -> str:
+    """A positive number with two digits, not below it."""
+    digit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return f"{math.ceil(value / digit * (1 - 1e-9)) * digit:.2g}"
+
+
 def _refuse_overlap(centers: FloatArray, radii: FloatArray, tolerance: float) -> None:
     pairs, gaps = near_pairs(centers, radii, 0.0)
-    if not len(gaps) or gaps.min() >= -tolerance:
+    if not len(gaps) or gaps.min() >= -min(tolerance, LARGEST_OVERLAP) - ROUNDING:
         return
     worst = int(gaps.argmin())
     i, j = (int(k) for k in pairs[worst])
     distance, sum_of_radii = float(np.linalg.norm(centers[j] - centers[i])), radii[i] + radii[j]
-    others = int(np.sum(gaps < -tolerance)) - 1
+    others = int(np.sum(gaps < -tolerance - ROUNDING)) - 1
     more = f" (and {others} more pair{'s' * (others > 1)})" if others else ""
     if distance <= 1e-9 * sum_of_radii:
         raise GeometryError(f"spheres {i} and {j} are at the same place {centers[i]}{more}; remove the duplicate")
     raise GeometryError(
         f"spheres {i} and {j} overlap: distance {distance:.6g} < {sum_of_radii:.6g} = sum of radii{more}; "
-        f"shrink the radii or pass overlap_tolerance (here at least {-gaps[worst]:.2g})"
+        f"shrink the radii or pass overlap_tolerance (here at least {_rounded_up(-gaps[worst])})"
     )

@@ -80,7 +80,7 @@ class MultipoleBasis:
     order: int
 
     def __post_init__(self) -> None:
-        if not isinstance(self.order, int | np.integer) or self.order < 1:
+        if isinstance(self.order, bool) or not isinstance(self.order, int | np.integer) or self.order < 1:
             raise ValueError(f"order: expected an integer of at least 1, got {self.order!r}")
 
     @cached_property
@@ -111,7 +111,7 @@ class MultipoleBasis:
         return _checks.frozen(np.concatenate([np.full(f.size, f.self_mobility) for f in self.families]))
 
     @cached_property
-    def elementary_velocities(self) -> FloatArray:
+    def elementary_projections(self) -> FloatArray:
         """Projections (11, M) of e_k, e_k × u and B_k·u on the modes: three streams, three rotations, five strains.
 
         The same matrix turns mode amplitudes into force, torque and stresslet of a unit sphere.

@@ -17,8 +17,7 @@ from rheoclast._checks import FloatArray
 
 def real_harmonics(degree: int, directions: FloatArray) -> FloatArray:
     """Values (..., 2n + 1) of the real harmonics of degree n at unit vectors (..., 3)."""
-    polar = np.arccos(np.clip(directions[..., 2], -1, 1))
-    azimuth = np.arctan2(directions[..., 1], directions[..., 0])
+    polar, azimuth = _angles(directions)
     order = np.arange(-degree, degree + 1)
     magnitude = np.abs(order)
     complex_values = sph_harm_y(degree, magnitude, polar[..., None], azimuth[..., None])
@@ -61,11 +60,16 @@ def rotations(degree: int, directions: FloatArray) -> FloatArray:
     A function with components c on the harmonics of the turned frame has components D c on those of the fixed frame.
     D = Z(φ) J Z(θ) Jᵀ with Z a turn about z and J the fixed quarter turn that carries z to y.
     """
-    polar = np.arctan2(np.hypot(directions[:, 0], directions[:, 1]), directions[:, 2])
-    azimuth = np.arctan2(directions[:, 1], directions[:, 0])
+    polar, azimuth = _angles(directions)
     quarter = _quarter_turn(degree)
     about_y = quarter @ _turned_about_z(polar, quarter.T)
     return _turned_about_z(azimuth, about_y)
+
+
+def _angles(directions: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Polar angle and azimuth (...) of unit vectors (..., 3), accurate at the poles as well."""
+    x, y, z = np.moveaxis(directions, -1, 0)
+    return np.arctan2(np.hypot(x, y), z), np.arctan2(y, x)
 
 
 def _turned_about_z(angle: FloatArray, components: FloatArray) -> FloatArray:

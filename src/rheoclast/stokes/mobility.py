@@ -39,12 +39,6 @@ class Mobility:
     radii: FloatArray
     basis: MultipoleBasis
 
-    @property
-    def shape(self) -> tuple[int, int]:
-        """(N M, N M)."""
-        size = len(self.radii) * self.basis.size
-        return size, size
-
     @cached_property
     def _coefficients(self) -> PairCoefficients:
         return PairCoefficients.of(self.basis)
@@ -82,7 +76,7 @@ class Mobility:
 
     def ambient_velocities(self) -> FloatArray:
         """Velocities (N, M, 11) that the eleven elementary flows have on the surfaces."""
-        unit = self.basis.elementary_velocities
+        unit = self.basis.elementary_projections
         velocities = elementary_velocities(self.centers) @ unit[:3]
         velocities[:, 3:] += self.radii[:, None, None] * unit[3:]
         return velocities.transpose(0, 2, 1)
@@ -92,6 +86,6 @@ class Mobility:
 
         The tractions may be those of a lower order, with fewer modes.
         """
-        moments = self.basis.elementary_velocities[:, : tractions.shape[1]] @ tractions
+        moments = self.basis.elementary_projections[:, : tractions.shape[1]] @ tractions
         moments[:, 3:] *= self.radii[:, None, None]
         return moments

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import os
 import re
 import subprocess
 import sys
@@ -236,6 +237,66 @@ class TestRefusals:
         status, _, err = run("stress", small, "--output", small)
         assert status == 1
         assert "expected a folder, got a file" in err
+
+    @pytest.mark.parametrize("arguments", [["--order", "2", "--flow", "turbulent"], ["--rate", "fast"], ["--nonsense"]])
+    def test_wrong_option(self, run, small, arguments):
+        status, out, err = run("stress", small, *arguments)
+        assert (status, out) == (2, "")
+        assert err.count("\n") == 1
+        assert err.startswith("error: ")
+
+    def test_rate_of_a_gradient(self, run, small):
+        status, _, err = run("stress", small, "--gradient", "0 1 0 0 0 0 0 0 0", "--rate", 2)
+        assert status == 1
+        assert "leave one of them out" in err
+
+    def test_overflow(self, run, small, tmp_path):
+        for arguments, message in (
+            (["--rate", 1e308], "gradient: expected rates up to 1e+100 1/s, got 1e+308; check the unit"),
+            (["--pull-off", 1e300], "got inf"),
+            (["--viscosity", 1e305, "--rate", 1e90], "too large"),
+        ):
+            status, out, err = run("stress", small, "--unit", "um", *arguments, "--output", tmp_path / "results")
+            assert (status, out) == (1, "")
+            assert message in err
+            assert not (tmp_path / "results").exists()
+
+    def test_folder_in_the_place_of_a_file(self, run, small, tmp_path):
+        (tmp_path / "results" / "summary.json").mkdir(parents=True)
+        status, _, err = run("stress", small, "--unit", "um", "--output", tmp_path / "results", "--overwrite")
+        assert status == 1
+        assert "summary.json there is a folder; choose another folder" in err
+        assert [path.name for path in (tmp_path / "results").iterdir()] == ["summary.json"]
+
+    def test_failure_while_writing_leaves_nothing(self, run, small, tmp_path, monkeypatch):
+        def fail(*_, **__):
+            raise OSError("disk full")
+
+        monkeypatch.setattr("rheoclast.view.draw", fail)
+        status, _, err = run("stress", small, "--unit", "um", "--output", tmp_path / "results")
+        assert status == 1
+        assert "disk full" in err
+        assert [path.name for path in tmp_path.iterdir()] == [small.name]
+
+    def test_names_with_brackets(self, run, small, tmp_path):
+        odd = tmp_path / "q[b]x[bold]y.dat"
+        odd.write_text(small.read_text())
+        status, out, _ = run("info", odd, "--unit", "um")
+        assert status == 0
+        assert "q[b]x[bold]y.dat" in out.replace("\n", "")
+
+    def test_screen_without_unicode(self, small):
+        command = [sys.executable, "-m", "rheoclast", "stress", str(small), "--unit", "um"]
+        done = subprocess.run(command, capture_output=True, env={**os.environ, "PYTHONIOENCODING": "ascii"}, check=True)
+        assert b"critical rate" in done.stdout
+
+    def test_singular_frame(self, run, tmp_path):
+        path = tmp_path / "triangle.dat"
+        path.write_text("0 0 0 1\n2 0 0 1\n1 1.7320508 0 1\n")
+        status, _, err = run("stress", path, "--unit", "um", "--stiffness", 1, 1, 1e-30, 1e30, "--pull-off", 1)
+        assert status == 1
+        assert err.count("\n") == 1
+        assert "stiffness" in err
 
     def test_forgotten_unit_is_warned_of_once(self, run, small):
         status, _, err = run("stress", small)

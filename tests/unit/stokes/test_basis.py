@@ -46,7 +46,7 @@ class TestModes:
         assert higher.slices[: len(basis.slices)] == basis.slices
         np.testing.assert_array_equal(higher.rank[: basis.size], basis.rank)
         np.testing.assert_array_equal(higher.self_mobility[: basis.size], basis.self_mobility)
-        np.testing.assert_array_equal(higher.elementary_velocities[:, : basis.size], basis.elementary_velocities)
+        np.testing.assert_array_equal(higher.elementary_projections[:, : basis.size], basis.elementary_projections)
         assert np.all(higher.rank[basis.size :] == order)
         assert np.all(basis.rank < order)
 
@@ -121,13 +121,13 @@ class TestOneSphere:
     def test_laws_of_stokes_and_einstein(self):
         """Forces, torques and stresslets of a held sphere in the elementary flows: 6π, 8π, 20π/3, and no other."""
         basis = MultipoleBasis(3)
-        unit = basis.elementary_velocities
+        unit = basis.elementary_projections
         held = unit / basis.self_mobility @ unit.T
         exact = pi * np.diag(np.repeat([6, 8, 20 / 3], [3, 3, 5]))
         np.testing.assert_allclose(held, exact, rtol=0, atol=1e-12)
 
     @pytest.mark.parametrize("order", [1, 2, 4])
-    def test_elementary_velocities(self, order):
+    def test_elementary_projections(self, order):
         """∫ ψ · (e_k, e_k × u, B_k·u) by Lebedev's rule; above order 2 they have no further parts."""
         points, weights = lebedev_rule(9)
         u = points.T
@@ -137,8 +137,8 @@ class TestOneSphere:
         flows = np.concatenate([streams, turning, straining], axis=1)
         basis = MultipoleBasis(order)
         expected = np.einsum("p,pki,pim->km", weights, flows, modes(basis, u))
-        np.testing.assert_allclose(basis.elementary_velocities, expected, rtol=0, atol=1e-12)
-        assert not basis.elementary_velocities[:, 11:].any()
+        np.testing.assert_allclose(basis.elementary_projections, expected, rtol=0, atol=1e-12)
+        assert not basis.elementary_projections[:, 11:].any()
 
 
 @pytest.mark.parametrize("order", [0, -1, 2.5, 2.0, float("nan"), "high", "2", None, True])

@@ -135,7 +135,7 @@ class TestRotations:
     @pytest.mark.parametrize("offset", [1e-9, 1e-300, -1e-300])
     def test_next_to_the_poles(self, offset):
         """Directions that rounding has moved off a pole still give rotations that carry z there."""
-        near = POLES + [offset, -offset, 0]
+        near = POLES + np.array([offset, -offset, 0])
         close(rotations(1, near)[:, [2, 0, 1], 1], near)
         matrices = rotations(HIGHEST, near)
         close(matrices @ matrices.transpose(0, 2, 1), np.broadcast_to(np.eye(2 * HIGHEST + 1), matrices.shape))

@@ -1,0 +1,58 @@
+"""The operator: its product, its matrix in pieces, and the thread guard of the dense solver."""
+
+import numpy as np
+import pytest
+from scipy.sparse.linalg import LinearOperator, cg
+from threadpoolctl import threadpool_info
+
+from rheoclast.stokes import mobility as module
+from rheoclast.stokes import solvers
+from rheoclast.stokes.basis import MultipoleBasis
+from rheoclast.stokes.mobility import Mobility
+
+CENTERS = np.array([[0, 0, 0], [2.1, 0.3, -0.2], [-1.4, 2.2, 1.0], [0.5, -1.8, 2.6], [3.0, 3.0, 0.1]])
+RADII = np.array([1.0, 0.7, 1.3, 0.9, 0.5])
+
+
+def operator(order):
+    return Mobility(CENTERS, RADII, MultipoleBasis(order))
+
+
+@pytest.mark.parametrize("order", [1, 2, 3, 4])
+def test_product_is_that_with_the_matrix(order):
+    mobility = operator(order)
+    tractions = np.random.default_rng(order).normal(size=(5, mobility.basis.size, 3))
+    expected = np.einsum("aibj,jbk->iak", mobility.matrix(), tractions)
+    np.testing.assert_allclose(mobility @ tractions, expected, rtol=0, atol=1e-13 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("pairs", [1, 2, 3])
+def test_pieces_of_rows_make_no_difference(monkeypatch, pairs):
+    whole = operator(2).matrix()
+    monkeypatch.setattr(module, "PAIR_CHUNK_BYTES", pairs * 8 * 11**2)
+    np.testing.assert_array_equal(operator(2).matrix(), whole)
+
+
+def test_conjugate_gradients_can_replace_the_dense_solver():
+    mobility = operator(3)
+    velocities = mobility.ambient_velocities()
+    shape = (5, mobility.basis.size, 1)
+    product = LinearOperator(
+        (np.prod(shape),) * 2, matvec=lambda x: (mobility @ np.reshape(x, shape)).ravel(), dtype=float
+    )
+    dense = solvers.DenseCholesky().solve(mobility, velocities)[-1]
+    for k in range(11):
+        iterated, failed = cg(product, velocities[:, :, k].ravel(), rtol=1e-12)
+        assert not failed
+        np.testing.assert_allclose(iterated.reshape(shape[:2]), dense[:, :, k], rtol=0, atol=1e-9 * np.abs(dense).max())
+
+
+@pytest.mark.parametrize(("size", "guarded"), [(15_000, False), (16_000, True)])
+def test_one_thread_where_threads_crash(size, guarded):
+    def threads():
+        return {pool["num_threads"] for pool in threadpool_info() if pool["user_api"] == "blas"}
+
+    before = threads()
+    with solvers._safe_threads(size):
+        assert threads() == ({1} if guarded else before)
+    assert threads() == before
