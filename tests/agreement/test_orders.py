@@ -204,17 +204,17 @@ class TestErrorBars:
 
     @pytest.mark.parametrize("name", CLUSTERS)
     def test_shrink_with_order(self, name):
-        """Of each load over all contacts of a cluster: forces at every step from 2 to 3 to 4 to 8, moments over two.
+        """Of each load over all contacts of a cluster: forces at every step from 2 to 3 to 4 to 8, moments in the end.
 
-        At order 2 a bar is a share of the last change alone, and moments that nearly vanish by symmetry (twisting in a
-        tetrahedron: 1e-4 of the tension times the radius) may change more at order 3.
+        Moments that nearly vanish by symmetry (twisting in a tetrahedron, 1e-4 of the tension times the radius) change
+        about as much at orders 3 and 4 as they did at order 2.
         """
         bars = {p: rc.truncation_error(tables(name)[p], FLOW) for p in (2, 3, 4, FINEST)}
         largest = np.linalg.norm(bars[2].tension)
         for load in LOADS:
             sizes = np.array([np.linalg.norm(getattr(bar, load)) for bar in bars.values()])
             if sizes[0] > 1e-9 * largest:
-                assert np.all(sizes[2:] < sizes[:2]), load
+                assert sizes[-1] < 0.5 * sizes[:-1].min(), load
                 assert load in ("bending", "twisting") or np.all(np.diff(sizes) < 0), load
 
     @pytest.mark.parametrize("name", ["polydisperse tree of 8", "fcc 6"])

@@ -52,12 +52,12 @@ def _joined(first, second, random):
     reach = np.linalg.norm(a, axis=1).max() + np.linalg.norm(b, axis=1).max() + radii_a.max() + radii_b.max()
     while True:
         offset = reach * np.sqrt(random.random()) * np.exp(2j * np.pi * random.random())
-        apart = b[:, None] + [offset.real, offset.imag, 0] - a
+        apart = b[:, None] + np.array([offset.real, offset.imag, 0]) - a
         room = (radii_b[:, None] + radii_a) ** 2 - (apart[..., :2] ** 2).sum(axis=-1)
         if (room > 0).any():
             break
     rise = np.where(room > 0, np.sqrt(np.maximum(room, 0)) - apart[..., 2], -np.inf).max()
-    return np.vstack([a, b + [offset.real, offset.imag, rise]]), np.concatenate([radii_a, radii_b])
+    return np.vstack([a, b + np.array([offset.real, offset.imag, rise])]), np.concatenate([radii_a, radii_b])
 
 
 def _turned(centers, random):

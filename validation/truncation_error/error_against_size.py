@@ -21,6 +21,7 @@ RADIUS = 0.5e-6
 ORDERS = (1, 2, 3, 4)
 MODELS = {"free draining": rc.FreeDraining(), "exposed area": rc.ExposedArea()}
 ORIENTATIONS = Rotation.random(200, random_state=1)
+LABELS = {"critical contact": "critical contact\nmistaken, share", "critical rate": "critical rate\nmedian error"}
 QUANTITIES = ("tension", "shear", "bending", "critical contact", "critical rate")
 
 FAMILIES = {
@@ -114,7 +115,7 @@ def draw(rows) -> plt.Figure:
                 panel.set_title({"tree": "open trees", "chain": "straight chains"}.get(family, "compact clusters"))
             if quantity == QUANTITIES[-1]:
                 panel.set_xlabel("spheres")
-        line[0].set_ylabel({"critical contact": "critical contact\nmistaken, share", "critical rate": "critical rate\nmedian error"}.get(quantity, f"{quantity}\nerror"))
+        line[0].set_ylabel(LABELS.get(quantity, f"{quantity}\nerror"))
     handles, labels = panels[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=6, frameon=False)
     return figure
@@ -124,7 +125,9 @@ def _mean_by_size(rows, family, model, quantity):
     chosen = [row for row in rows if row["family"] == family and row["model"] == model]
     sizes = sorted({row["spheres"] for row in chosen})
     values = [np.sqrt(np.mean([row[quantity] ** 2 for row in chosen if row["spheres"] == size])) for size in sizes]
-    kept = [(size, value) for size, value in zip(sizes, values, strict=True) if value > 0 or quantity == "critical contact"]
+    kept = [
+        (size, value) for size, value in zip(sizes, values, strict=True) if value > 0 or quantity == "critical contact"
+    ]
     return [list(column) for column in zip(*kept, strict=True)] if kept else ([], [])
 
 
