@@ -9,10 +9,15 @@ import numpy as np
 from rheoclast._checks import FloatArray
 from rheoclast.breakup.contact_response import ContactResponse
 from rheoclast.flows import LinearFlow
-from rheoclast.hydrodynamics.truncation import LOWEST_ORDER, expected_error
+from rheoclast.hydrodynamics.truncation import FORCE, LOWEST_ORDER, ErrorRule, expected_error
 
-SHARES = {"tension": 1.0, "shear": 0.3, "bending": 0.35, "twisting": 0.35}
-"""Share of the change from order 1 to 2 that is expected as error at order 2; see `validation/truncation_error`."""
+RULES = {
+    "tension": FORCE,
+    "shear": ErrorRule(share=0.3, weight=1 / 4),
+    "bending": ErrorRule(share=0.35, weight=2 / 3),
+    "twisting": ErrorRule(share=0.35, weight=2 / 3),
+}
+"""How changes between orders tell of the error of each load; calibrated in `validation/truncation_error`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,8 +65,8 @@ def truncation_error(table: ContactResponse, flow: LinearFlow) -> TruncationErro
     strength = float(np.linalg.norm(flow.strain_rate)) / np.sqrt(5)
     orders = _last_three_orders(table)
     errors = {
-        load: strength * expected_error([_part(load, each) for each in orders], table.order, (1, 2), share)
-        for load, share in SHARES.items()
+        load: strength * expected_error([_part(load, each) for each in orders], table.order, (1, 2), rule)
+        for load, rule in RULES.items()
     }
     return TruncationError(**errors)
 

@@ -24,7 +24,7 @@ class ExposedArea(HydrodynamicModel):
     Parameters
     ----------
     rays
-        Number of rays from each sphere, spread evenly; the fraction is good to about 4/rays.
+        Number of rays from each sphere, spread evenly; the fraction is good to rays^(−3/4).
     """
 
     rays: int = 4096

@@ -71,11 +71,11 @@ class StokesianDynamics(HydrodynamicModel):
         for order in range(LOWEST_AUTOMATIC_ORDER, HIGHEST_AUTOMATIC_ORDER + 1):
             found = self._solve(order, centers, radii, progress)
             forces = [free_loads(centers, each.loads)[:, :3] for each in found]
-            error = float(expected_error(forces, order)) / float((forces[-1] ** 2).sum() ** 0.5)
-            if error <= self.tolerance:
+            error, size = float(expected_error(forces, order)), float((forces[-1] ** 2).sum() ** 0.5)
+            if error <= self.tolerance * size:
                 return found
         raise ArithmeticError(
-            f"order='auto': tolerance {self.tolerance:g} is not met at order {order}, which errs by {error:.2g}; "
+            f"order='auto': tolerance {self.tolerance:g} is not met at order {order}, which errs by {error / size:.2g}; "
             "raise the tolerance or give the order"
         )
 

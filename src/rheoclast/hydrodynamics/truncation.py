@@ -2,17 +2,19 @@
 
 With Δ_p the change from order p − 1 to p, the expected error at order p is
 
-    s |Δ_2|                                  at order 2, with a share s that depends on the quantity,
-    (p / 6) · sqrt(Δ_p² + (Δ_{p−1} / 4)²)    at order 3 and above.
+    s |Δ_2|                                at order 2,
+    (p / 6) · sqrt(Δ_p² + (w Δ_{p−1})²)    at order 3 and above.
 
-Convergence is algebraic because of the points of contact: for an error that falls like p^−q the sum of all changes yet
-to come is about p/q times the last, whence the factor. The change before it is there because in symmetric arrangements
-every second order may change nothing. Shares and factors are calibrated in `validation/truncation_error`.
+Convergence of contact loads is about algebraic because of the points of contact: for an error that falls like p^−q the
+sum of all changes yet to come is about p/q times the last, whence the factor. The change before it is there because in
+symmetric arrangements every second order may change nothing. The share s and the weight w depend on the quantity and are
+calibrated in `validation/truncation_error`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,8 +23,27 @@ from rheoclast._checks import FloatArray
 LOWEST_ORDER = 2
 
 
+class ErrorRule(NamedTuple):
+    """How changes between orders tell of the error of a quantity.
+
+    Attributes
+    ----------
+    share
+        Share s of the change from order 1 to 2 that is expected as error at order 2.
+    weight
+        Weight w of the change before the last, at order 3 and above.
+    """
+
+    share: float
+    weight: float
+
+
+FORCE = ErrorRule(share=1.0, weight=1 / 4)
+"""The rule for forces on spheres, and tensions."""
+
+
 def expected_error(
-    values: Sequence[FloatArray], order: int, axis: int | tuple[int, ...] | None = None, share: float = 1.0
+    values: Sequence[FloatArray], order: int, axis: int | tuple[int, ...] | None = None, rule: ErrorRule = FORCE
 ) -> FloatArray:
     """Expected error of a quantity at multipole order p, as a root of a sum of squares over some axes.
 
@@ -34,11 +55,11 @@ def expected_error(
         The order p ≥ 2.
     axis
         Axes over which the squares of the changes are added up; None for all.
-    share
-        The share s of the change that is expected as error at order 2.
+    rule
+        Share s and weight w of the quantity.
     """
     last = np.sum((values[-1] - values[-2]) ** 2, axis=axis)
     if order == LOWEST_ORDER:
-        return np.asarray(share * np.sqrt(last))
+        return np.asarray(rule.share * np.sqrt(last))
     before = np.sum((values[-2] - values[-3]) ** 2, axis=axis)
-    return np.asarray(order / 6 * np.sqrt(last + before / 16))
+    return np.asarray(order / 6 * np.sqrt(last + rule.weight**2 * before))
