@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from rheoclast._checks import FloatArray
 from rheoclast.stokes.mobility import Progress
+from rheoclast.stokes.solver import Convergence
 
 
 class Approximation(NamedTuple):
@@ -20,10 +21,13 @@ class Approximation(NamedTuple):
         reference point and five unit strains in which the aggregate is held at rest.
     order
         Multipole order, if the model has one.
+    convergence
+        How the linear system was solved, if there is one.
     """
 
     loads: FloatArray
     order: int | None = None
+    convergence: Convergence | None = None
 
 
 class HydrodynamicModel(ABC):

@@ -17,6 +17,7 @@ from rheoclast.loads import SphereLoads
 from rheoclast.particles.spheres import Spheres
 from rheoclast.scales import Scales, warn_of_radii, warn_of_viscosity
 from rheoclast.stokes.mobility import Progress
+from rheoclast.stokes.solver import Convergence
 from rheoclast.vectors import LEVI_CIVITA, STRAIN_BASIS, cross_matrix, strain_components
 
 ROUNDING = 1e-12
@@ -60,8 +61,9 @@ def rigid_response(
     scales = Scales(float(spheres.radii.mean()), viscosity)
     centers = (spheres.centers - spheres.center_of_mass) / scales.length
     response = None
-    for loads, order in model.elementary_loads(centers, spheres.radii / scales.length, progress):
-        response = RigidResponse(spheres, model, scales, _checks.frozen(loads), order, response)
+    for each in model.elementary_loads(centers, spheres.radii / scales.length, progress):
+        loads = _checks.frozen(each.loads)
+        response = RigidResponse(spheres, model, scales, loads, each.order, each.convergence, response)
     assert response is not None
     return response
 
@@ -80,6 +82,8 @@ class RigidResponse:
         (N, 11, 11) dimensionless loads on every sphere, see `HydrodynamicModel.elementary_loads`.
     order
         Multipole order of the loads; None if the model has none.
+    convergence
+        Iterations, residual and time of the linear solution; None for models without one.
     coarser
         The response at the next lower order; None for order 1 and for models without order.
     """
@@ -89,6 +93,7 @@ class RigidResponse:
     scales: Scales
     elementary_loads: FloatArray
     order: int | None = None
+    convergence: Convergence | None = None
     coarser: RigidResponse | None = None
 
     @property

@@ -14,9 +14,10 @@ from rheoclast._checks import FloatArray
 from rheoclast.hydrodynamics.free_body import free_loads
 from rheoclast.hydrodynamics.model import Approximation, HydrodynamicModel
 from rheoclast.hydrodynamics.truncation import expected_error
+from rheoclast.stokes.automatic import Automatic
 from rheoclast.stokes.basis import MultipoleBasis
 from rheoclast.stokes.mobility import Mobility, Progress
-from rheoclast.stokes.solvers import DenseCholesky, Solver
+from rheoclast.stokes.solver import Solver
 
 LOWEST_AUTOMATIC_ORDER = 2
 HIGHEST_AUTOMATIC_ORDER = 12
@@ -45,7 +46,7 @@ class StokesianDynamics(HydrodynamicModel):
 
     order: int | Literal["auto"] = 2
     tolerance: float = 0.02
-    solver: Solver = field(default_factory=DenseCholesky)
+    solver: Solver = field(default_factory=Automatic)
 
     def __post_init__(self) -> None:
         if self.order != "auto":
@@ -75,17 +76,16 @@ class StokesianDynamics(HydrodynamicModel):
             if error <= self.tolerance * size:
                 return found
         raise ArithmeticError(
-            f"order='auto': tolerance {self.tolerance:g} is not met at order {order}, which errs by {error / size:.2g}; "
-            "raise the tolerance or give the order"
+            f"order='auto': tolerance {self.tolerance:g} is not met at order {order}, "
+            f"which errs by {error / size:.2g}; raise the tolerance or give the order"
         )
 
     def _solve(
         self, order: int, centers: FloatArray, radii: FloatArray, progress: Progress | None
     ) -> list[Approximation]:
         mobility = Mobility(centers, radii, MultipoleBasis(order))
-        tractions = self.solver.solve(mobility, mobility.ambient_velocities(), progress)
-        first = order - len(tractions) + 1
-        return [Approximation(mobility.moments(each), first + k) for k, each in enumerate(tractions)]
+        solutions = self.solver.solve(mobility, mobility.ambient_velocities(), progress)
+        return [Approximation(mobility.moments(each.tractions), each.order, each.convergence) for each in solutions]
 
     def memory(self, count: int) -> float:
         """Memory in bytes that the solution for `count` spheres takes at most; for "auto" that of its first order."""

@@ -7,7 +7,7 @@ With Δ_p the change from order p − 1 to p, the expected error at order p is
 
 Convergence of contact loads is about algebraic because of the points of contact: for an error that falls like p^−q the
 sum of all changes yet to come is about p/q times the last, whence the factor. The change before it is there because in
-symmetric arrangements every second order may change nothing. The share s and the weight w depend on the quantity and are
+symmetric arrangements every second order may change nothing. Share s and weight w depend on the quantity and are
 calibrated in `validation/truncation_error`.
 """
 

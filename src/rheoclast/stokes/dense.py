@@ -1,13 +1,12 @@
-"""Ways to solve mobility · traction = velocity."""
+"""Direct solution by the dense matrix."""
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+import time
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from typing import Any, final
 
-import psutil
 from scipy.linalg import LinAlgError, cho_factor, solve_triangular
 from threadpoolctl import threadpool_limits
 
@@ -15,21 +14,9 @@ from rheoclast._checks import FloatArray
 from rheoclast.errors import GeometryError
 from rheoclast.stokes.basis import MultipoleBasis
 from rheoclast.stokes.mobility import PAIR_CHUNK_BYTES, Mobility, Progress
+from rheoclast.stokes.solver import Convergence, Solution, Solver
 
-
-class Solver(ABC):
-    """Solves for the tractions that give prescribed surface velocities."""
-
-    @abstractmethod
-    def solve(self, mobility: Mobility, velocities: FloatArray, progress: Progress | None = None) -> list[FloatArray]:
-        """Tractions (N, M, K) that give velocities (N, M, K), at increasing multipole order.
-
-        The last is the solution asked for. Those before it have fewer modes and show how it converges.
-        """
-
-    @abstractmethod
-    def memory(self, count: int, basis: MultipoleBasis) -> float:
-        """Memory in bytes that the solution for `count` spheres takes at most."""
+LARGEST_THREADED_CHOLESKY = 15_000
 
 
 @final
@@ -40,8 +27,8 @@ class DenseCholesky(Solver):
     Orders are nested, so the leading part of the one factorization serves every lower order.
     """
 
-    def solve(self, mobility: Mobility, velocities: FloatArray, progress: Progress | None = None) -> list[FloatArray]:
-        """Tractions (N, M, K) of orders 1 to p from velocities (N, M, K).
+    def solve(self, mobility: Mobility, velocities: FloatArray, progress: Progress | None = None) -> list[Solution]:
+        """Solutions of orders 1 to p for velocities (N, M, K).
 
         Raises
         ------
@@ -50,8 +37,9 @@ class DenseCholesky(Solver):
         GeometryError
             If the mobility is not positive definite, which happens when spheres overlap.
         """
+        self.refuse_beyond_memory(mobility)
+        start = time.perf_counter()
         count, modes, columns = velocities.shape
-        _refuse_beyond_memory(self.memory(count, mobility.basis), mobility)
         matrix = mobility.matrix(progress).reshape(modes * count, modes * count)
         if progress is not None:
             progress("factorization", 0.0)
@@ -60,28 +48,20 @@ class DenseCholesky(Solver):
             factor = _cholesky(matrix.T)
             right_side = velocities.transpose(1, 0, 2).reshape(modes * count, columns)
             forward = solve_triangular(factor, right_side, lower=True, check_finite=False)
-            tractions = [
-                _backward(factor, forward, count * MultipoleBasis(order).size).reshape(-1, count, columns)
-                for order in range(1, mobility.basis.order + 1)
-            ]
+            orders = range(1, mobility.basis.order + 1)
+            found = [_backward(factor, forward, count * MultipoleBasis(order).size) for order in orders]
         if progress is not None:
             progress("factorization", 1.0)
-        return [each.transpose(1, 0, 2) for each in tractions]
+        convergence = Convergence(0, 0.0, time.perf_counter() - start)
+        return [
+            Solution(each.reshape(-1, count, columns).transpose(1, 0, 2), order, convergence)
+            for order, each in zip(orders, found, strict=True)
+        ]
 
     def memory(self, count: int, basis: MultipoleBasis) -> float:
         """Bytes of the matrix, and of the copy of its leading part that the next lower order takes."""
         lower = MultipoleBasis(basis.order - 1).size if basis.order > 1 else 0
         return 8.0 * count**2 * (basis.size**2 + lower**2) + PAIR_CHUNK_BYTES * 4
-
-
-def _refuse_beyond_memory(needed: float, mobility: Mobility) -> None:
-    available = psutil.virtual_memory().available
-    if needed > available:
-        order = mobility.basis.order
-        raise MemoryError(
-            f"order {order} of {len(mobility.radii)} spheres needs {needed / 1e9:.3g} GB of memory, "
-            f"{available / 1e9:.3g} GB are free; use a lower order or fewer spheres"
-        )
 
 
 def _cholesky(matrix: FloatArray) -> FloatArray:
@@ -98,9 +78,6 @@ def _cholesky(matrix: FloatArray) -> FloatArray:
 def _backward(factor: FloatArray, forward: FloatArray, size: int) -> FloatArray:
     """Solution (size, K) of the leading part of the system, from the forward substitution of the whole."""
     return solve_triangular(factor[:size, :size], forward[:size], lower=True, trans="T", check_finite=False)
-
-
-LARGEST_THREADED_CHOLESKY = 15_000
 
 
 def _safe_threads(size: int) -> AbstractContextManager[Any]:

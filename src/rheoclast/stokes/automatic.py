@@ -1,0 +1,41 @@
+"""The faster of the direct and the iterative solution."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import final
+
+from rheoclast._checks import FloatArray
+from rheoclast.stokes.basis import MultipoleBasis
+from rheoclast.stokes.dense import DenseCholesky
+from rheoclast.stokes.iterative import HIGHEST_ORDER, BlockConjugateGradients
+from rheoclast.stokes.mobility import Mobility, Progress
+from rheoclast.stokes.solver import Solution, Solver
+
+FEWEST_UNKNOWNS = 2_000
+
+
+@final
+@dataclass(frozen=True)
+class Automatic(Solver):
+    """Dense Cholesky for few unknowns and for orders above 2, else block conjugate gradients.
+
+    Parameters
+    ----------
+    iterative
+        The iterative solver, with its tolerance.
+    """
+
+    iterative: BlockConjugateGradients = field(default_factory=BlockConjugateGradients)
+
+    def solve(self, mobility: Mobility, velocities: FloatArray, progress: Progress | None = None) -> list[Solution]:
+        """See the solver that is chosen."""
+        return self._chosen(len(mobility.radii), mobility.basis).solve(mobility, velocities, progress)
+
+    def memory(self, count: int, basis: MultipoleBasis) -> float:
+        """See the solver that is chosen."""
+        return self._chosen(count, basis).memory(count, basis)
+
+    def _chosen(self, count: int, basis: MultipoleBasis) -> Solver:
+        few = count * basis.size < FEWEST_UNKNOWNS
+        return DenseCholesky() if few or basis.order > HIGHEST_ORDER else self.iterative
