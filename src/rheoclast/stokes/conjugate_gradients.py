@@ -50,6 +50,7 @@ def conjugate_gradients(
         If the tolerance is not reached.
     """
     norms = np.linalg.norm(right_side, axis=0)
+    norms[norms == 0] = 1.0
     scaled = right_side / norms
     solution = np.zeros_like(scaled)
     residual, size = np.linalg.qr(scaled)

@@ -33,8 +33,8 @@ class BlockConjugateGradients(Solver):
     ----------
     tolerance
         Largest residual of any right-hand side over its norm, both measured in the preconditioned space, where the
-        operator is near the identity. Contact loads are then good to about three times the tolerance, as a share of
-        the largest (see `tests/agreement/test_iterative.py`).
+        operator is near the identity. Contact loads are then good to about the tolerance, as a share of the
+        largest; moments in long straight chains to ten times it (see `tests/agreement/test_iterative.py`).
     """
 
     tolerance: float = 1e-6

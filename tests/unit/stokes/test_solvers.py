@@ -83,8 +83,8 @@ def test_refuses_what_does_not_fit_into_memory():
         r"order 2 of 100000 spheres needs 1\.04e\+04 GB of memory, [\d.e+]+ GB are free; "
         "use a lower order or fewer spheres"
     )
+    model = rc.StokesianDynamics(order=2, solver=DenseCholesky())
     with pytest.raises(MemoryError, match=f"^{message}$"):
-        model = rc.StokesianDynamics(order=2, solver=DenseCholesky())
         rc.rigid_response(rc.Spheres(centers, 1.0), model, viscosity=1.0)
 
 
