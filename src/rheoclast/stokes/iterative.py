@@ -8,6 +8,7 @@ from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from typing import Any, final
 
+import numpy as np
 from threadpoolctl import threadpool_limits
 
 from rheoclast import _checks
@@ -67,8 +68,8 @@ class BlockConjugateGradients(Solver):
         return found
 
     def memory(self, count: int, basis: MultipoleBasis) -> float:
-        """Bytes of about fifty vectors of unknowns and of the factor for compact clusters."""
-        return 8.0 * count * basis.size * (50 * 11 + 3 * 20 * basis.size)
+        """Bytes of sixteen blocks of vectors, and of the factor in single precision for a compact cluster."""
+        return count * basis.size * (8.0 * 16 * 11 + 4.0 * 25 * basis.size)
 
 
 def _solution(mobility: Mobility, velocities: FloatArray, tolerance: float, progress: Progress | None) -> Solution:
@@ -90,12 +91,12 @@ def _solution(mobility: Mobility, velocities: FloatArray, tolerance: float, prog
         apply = FastMobility(mobility)
 
         def preconditioned(vectors: FloatArray) -> FloatArray:
-            tractions = (factor.upper @ vectors).reshape(count, modes, columns)
-            return factor.lower @ apply(tractions).reshape(count * modes, columns)
+            image = factor.lower(apply(factor.upper(vectors.reshape(count, modes, columns))))
+            return image.reshape(count * modes, columns)
 
-        right_side = factor.lower @ velocities.reshape(count * modes, columns)
+        right_side = factor.lower(np.ascontiguousarray(velocities)).reshape(count * modes, columns)
         solution, iterations, residual = conjugate_gradients(preconditioned, right_side, tolerance, progress=report)
-        tractions = (factor.upper @ solution).reshape(count, modes, columns)
+        tractions = factor.upper(solution.reshape(count, modes, columns))
     convergence = Convergence(iterations, residual, time.perf_counter() - start)
     return Solution(tractions, mobility.basis.order, convergence)
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numba import njit, prange
-from scipy.sparse import bsr_array
+from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 from threadpoolctl import threadpool_limits
 
@@ -24,16 +24,36 @@ SPHERES_AT_A_TIME = 4096
 
 @dataclass(frozen=True, eq=False)
 class InverseFactor:
-    """U with A⁻¹ ≈ U Uᵀ, made by `inverse_factor`.
+    """U with A⁻¹ ≈ U Uᵀ, made by `inverse_factor`. Single precision suffices for a preconditioner.
 
     Attributes
     ----------
-    upper, lower
-        U and Uᵀ, sparse (N M, N M), sphere before mode.
+    starts, members
+        Spheres on which each sphere's block column stands, (N + 1,) and (E,).
+    columns
+        The blocks (E, M, M) of U, column after column.
+    row_starts, row_entries, row_owners
+        The same row after row: which entries stand in the row of a sphere, and the sphere whose column each is in.
     """
 
-    upper: bsr_array
-    lower: bsr_array
+    starts: IntArray
+    members: IntArray
+    columns: NDArray[np.float32]
+    row_starts: IntArray
+    row_entries: IntArray
+    row_owners: IntArray
+
+    def upper(self, vectors: FloatArray) -> FloatArray:
+        """U x of vectors (N, M, K)."""
+        result = np.zeros_like(vectors)
+        _by_rows(self.row_starts, self.row_entries, self.row_owners, self.columns, vectors, result)
+        return result
+
+    def lower(self, vectors: FloatArray) -> FloatArray:
+        """Uᵀ x of vectors (N, M, K)."""
+        result = np.zeros_like(vectors)
+        _by_columns(self.starts, self.members, self.columns, vectors, result)
+        return result
 
 
 def inverse_factor(centers: FloatArray, radii: FloatArray, basis: MultipoleBasis, reach: float) -> InverseFactor:
@@ -50,18 +70,51 @@ def inverse_factor(centers: FloatArray, radii: FloatArray, basis: MultipoleBasis
     starts, members = _conditioning_sets(centers, order, scale, reach)
     count, modes = len(radii), basis.size
     coefficients = PairCoefficients.of(basis)
-    columns = np.zeros((len(members), modes, modes))
+    columns = np.zeros((len(members), modes, modes), np.float32)
     for first in range(0, count, SPHERES_AT_A_TIME):
-        last = min(count, first + SPHERES_AT_A_TIME)
-        local, blocks = _pair_blocks(centers, radii, coefficients, starts[first : last + 1], members)
+        part = starts[first : first + SPHERES_AT_A_TIME + 1]
+        local, blocks = _pair_blocks(centers, radii, coefficients, part, members)
         with threadpool_limits(1, "blas"):
-            _block_columns(starts[first : last + 1], members, radii, basis.self_mobility, *local, blocks, columns)
-    lower = bsr_array(
-        (columns.transpose(0, 2, 1).copy(), members, starts),
-        shape=(count * modes, count * modes),
-        blocksize=(modes, modes),
-    )
-    return InverseFactor(lower.T.tobsr((modes, modes)), lower)
+            _block_columns(part, members, radii, basis.self_mobility, *local, blocks, columns)
+    entries = np.argsort(members, kind="stable")
+    row_starts = np.concatenate([[0], np.cumsum(np.bincount(members, minlength=count))])
+    owners = np.repeat(np.arange(count), np.diff(starts))
+    return InverseFactor(starts, members, columns, row_starts, entries, owners[entries])
+
+
+@njit(parallel=True, fastmath=True, cache=True)
+def _by_rows(
+    starts: IntArray,
+    entries: IntArray,
+    owners: IntArray,
+    columns: NDArray[np.float32],
+    vectors: FloatArray,
+    result: FloatArray,
+) -> None:
+    for row in prange(starts.size - 1):
+        for place in range(starts[row], starts[row + 1]):
+            block, vector = columns[entries[place]], vectors[owners[place]]
+            for m in range(block.shape[0]):
+                for n in range(block.shape[1]):
+                    for k in range(vector.shape[1]):
+                        result[row, m, k] += block[m, n] * vector[n, k]
+
+
+@njit(parallel=True, fastmath=True, cache=True)
+def _by_columns(
+    starts: IntArray,
+    members: IntArray,
+    columns: NDArray[np.float32],
+    vectors: FloatArray,
+    result: FloatArray,
+) -> None:
+    for column in prange(starts.size - 1):
+        for entry in range(starts[column], starts[column + 1]):
+            block, vector = columns[entry], vectors[members[entry]]
+            for n in range(block.shape[0]):
+                for m in range(block.shape[1]):
+                    for k in range(vector.shape[1]):
+                        result[column, m, k] += block[n, m] * vector[n, k]
 
 
 @njit(cache=True, fastmath=True)
@@ -135,7 +188,7 @@ def _pair_blocks(
     return (first, index), coefficients.blocks(centers[low] - centers[high], radii[low], radii[high])
 
 
-@njit(parallel=True, cache=True)
+@njit(parallel=True, fastmath=True, cache=True)
 def _block_columns(
     starts: IntArray,
     members: IntArray,
@@ -144,7 +197,7 @@ def _block_columns(
     first: IntArray,
     index: IntArray,
     blocks: FloatArray,
-    columns: FloatArray,
+    columns: NDArray[np.float32],
 ) -> None:
     """Write the blocks of U in every set's column to `columns` at the places of its members.
 
@@ -168,12 +221,13 @@ def _block_columns(
                 else:
                     matrix[row : row + modes, column : column + modes] = block.T
         lower = np.linalg.cholesky(matrix)
-        solution = np.zeros((size, modes))
         for m in range(modes):
-            solution[size - modes + m, m] = 1.0
-        for row in range(size - 1, -1, -1):
-            solution[row] /= lower[row, row]
-            for above in range(row):
-                solution[above] -= lower[row, above] * solution[row]
-        for a in range(end - begin):
-            columns[begin + a] = solution[a * modes : (a + 1) * modes]
+            solution = np.zeros(size)
+            solution[size - modes + m] = 1.0
+            for row in range(size - modes + m, -1, -1):
+                value = solution[row] / lower[row, row]
+                solution[row] = value
+                for above in range(row):
+                    solution[above] -= lower[row, above] * value
+            for a in range(end - begin):
+                columns[begin + a, :, m] = solution[a * modes : (a + 1) * modes]
