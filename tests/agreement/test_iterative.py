@@ -72,13 +72,13 @@ def test_iterations_are_few(aggregate):
 
 
 def test_order_below_serves_the_error_bar(aggregate):
-    """It is solved to 1e-3 only, which changes the bars by a few thousandths."""
+    """It is solved to 3e-3 of the loads only, which changes the bars, a tenth of the loads, by a few per cent."""
     exact, _ = contact_table(aggregate, 2, DenseCholesky())
     table, response = contact_table(aggregate, 2, BlockConjugateGradients(1e-6))
     assert response.coarser.order == 1
     flow = rc.simple_shear(1.0)
     ours, truth = rc.truncation_error(table, flow), rc.truncation_error(exact, flow)
-    np.testing.assert_allclose(ours.tension, truth.tension, rtol=0, atol=0.02 * truth.tension.max())
+    np.testing.assert_allclose(ours.tension, truth.tension, rtol=0, atol=0.05 * truth.tension.max())
 
 
 def test_automatic_choice():

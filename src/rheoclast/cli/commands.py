@@ -16,7 +16,7 @@ import rheoclast
 from rheoclast import io as files
 from rheoclast.cli import options, results
 from rheoclast.cli.analysis import Analysis, analyse
-from rheoclast.cli.console import plain_speech, progress_bar, screen
+from rheoclast.cli.console import plain_speech, progress_bar, screen, tell_memory
 from rheoclast.cli.presentation import show_shape, show_stress
 from rheoclast.cli.tables import shape_summary, stress_summary
 from rheoclast.cli.units import Units
@@ -101,10 +101,10 @@ def stress(
         tolerance=tolerance,
         overlap_tolerance=overlap_tolerance,
     )
+    chosen_model = options.chosen_model(model, order, accuracy)
+    tell_memory(len(aggregate), chosen_model.memory(len(aggregate)))
     with progress_bar() as progress:
-        analysis = analyse(
-            aggregate, chosen_flow, options.chosen_model(model, order, accuracy), viscosity, law, progress
-        )
+        analysis = analyse(aggregate, chosen_flow, chosen_model, viscosity, law, progress)
     name = "gradient" if gradient else flow.value
     _report(str(file), name, analysis, output, as_json=as_json, dimensionless=dimensionless)
 
@@ -161,9 +161,11 @@ def info(
         overlap_tolerance=overlap_tolerance,
     )
     length, name = (float(aggregate.spheres.radii.mean()), "a") if dimensionless else (1.0, "m")
+    chosen_model = options.chosen_model(model, order, accuracy)
+    tell_memory(len(aggregate), chosen_model.memory(len(aggregate)))
     with progress_bar() as progress:
         # A response with unit viscosity: neither measure depends on the viscosity.
-        response = rigid_response(aggregate.spheres, options.chosen_model(model, order, accuracy), 1.0, progress)
+        response = rigid_response(aggregate.spheres, chosen_model, 1.0, progress)
     summary = {
         **shape_summary(aggregate, length),
         "hydrodynamic_radius": response.hydrodynamic_radius / length,

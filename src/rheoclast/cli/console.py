@@ -13,6 +13,7 @@ from rich.markup import escape
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 SECONDS_WITHOUT_PROGRESS = 2.0
+WORTH_TELLING = 1e9  # bytes
 
 REFUSALS = (ValueError, TypeError, OSError, ArithmeticError, MemoryError)
 UsageProblem: type[typer.BadParameter] = typer.BadParameter.__mro__[2]  # the exception of all wrong options
@@ -48,6 +49,12 @@ def plain_speech(debug: bool) -> Iterator[None]:
 
 def _one_line(message: object) -> str:
     return escape(" ".join(str(message).split()))
+
+
+def tell_memory(count: int, memory: float) -> None:
+    """Say beforehand what memory a large problem needs."""
+    if memory > WORTH_TELLING:
+        messages.print(f"{count} spheres: up to {memory / 1e9:.2g} GB of memory", soft_wrap=True)
 
 
 @contextmanager

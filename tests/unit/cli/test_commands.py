@@ -307,6 +307,13 @@ class TestRefusals:
     def test_thick_liquid_is_warned_of(self, run, small):
         assert "viscosity 1e+04 Pa s exceeds 1000 Pa s" in run("stress", small, "--unit", "um", "--viscosity", 1e4)[2]
 
+    def test_memory_is_told_beforehand(self, run, tmp_path):
+        """At order 4 the matrix of 200 spheres takes 8 (200 · 47)² bytes, and its leading part a third of that."""
+        path = tmp_path / "chain.dat"
+        path.write_text("".join(f"{2 * k} 0 0 1\n" for k in range(200)))
+        _, _, err = run("info", path, "--unit", "um", "--order", 4)
+        assert err.strip() == "200 spheres: up to 1.2 GB of memory"
+
     def test_debug_shows_the_traceback(self, small):
         with pytest.raises(ValueError, match="expected nine numbers"):
             main(["stress", str(small), "--gradient", "1", "--debug"])
