@@ -106,3 +106,14 @@ def test_progress_tells_the_residual():
     BlockConjugateGradients().solve(mobility, mobility.ambient_velocities(), lambda *step: steps.append(step))
     assert "residual" in steps[-1][0]
     assert steps[-1][1] == 1.0
+
+
+def test_far_field_serves_large_clusters(monkeypatch):
+    """The path of clusters too large for direct sums, on a small one: contact loads stay within the tolerance."""
+    monkeypatch.setattr("rheoclast.stokes.iterative.LARGEST_DIRECT", 100)
+    centers, radii = sticking_cluster(450, 7)
+    spread = rc.Aggregate.touching(rc.Spheres(centers, radii))
+    exact, _ = contact_table(spread, 2, DenseCholesky())
+    table, _ = contact_table(spread, 2, BlockConjugateGradients(1e-5))
+    assert np.abs(table.force - exact.force).max() < 3e-5 * np.abs(exact.force).max()
+    assert np.abs(table.moment - exact.moment).max() < 3e-5 * np.abs(exact.moment).max()

@@ -9,6 +9,7 @@ import numpy as np
 
 from rheoclast._checks import FloatArray, IntArray
 from rheoclast.stokes.direct_sum import force_velocities, pair_velocities
+from rheoclast.stokes.far_field import FarField
 from rheoclast.stokes.mobility import Mobility
 from rheoclast.vectors import STRAIN_BASIS
 
@@ -18,43 +19,59 @@ ENTRIES = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2))
 
 @dataclass(frozen=True, eq=False)
 class FastMobility:
-    """Applies the mobility of order 1 or 2 by compiled direct sums over all pairs.
+    """Applies the mobility of order 1 or 2: compiled direct sums over near pairs, an octree for the rest.
 
     Parameters
     ----------
     mobility
         The operator.
+    far
+        Far field of the same spheres. Without it all pairs are summed directly.
     """
 
     mobility: Mobility
+    far: FarField | None = None
 
     def __call__(self, tractions: FloatArray) -> FloatArray:
         """Velocities (N, M, K) from tractions (N, M, K)."""
-        mobility, scale = self.mobility, self._scale
-        loads = np.ascontiguousarray((scale * (self._to_loads @ tractions)).transpose(2, 1, 0))
+        mobility, order = self.mobility, self._order
+        loads = np.ascontiguousarray((self._scale * (self._to_loads @ tractions[order])).transpose(2, 1, 0))
         motion = np.zeros_like(loads)
         sums = force_velocities if mobility.basis.order == 1 else pair_velocities
-        sums(self._centers, mobility.radii, loads, *self._ranges, motion)
-        velocities = self._from_motion @ (scale * motion.transpose(2, 1, 0))
+        sums(*self._sorted_spheres, loads, *self._ranges, motion)
+        velocities = np.empty_like(tractions)
+        velocities[order] = self._from_motion @ (self._scale * motion.transpose(2, 1, 0))
         velocities += mobility.basis.self_mobility[:, None] / mobility.radii[:, None, None] * tractions
-        return velocities
+        return velocities if self.far is None else velocities + self.far.apply(tractions)
 
     @cached_property
-    def _centers(self) -> FloatArray:
-        return np.ascontiguousarray(self.mobility.centers.T)
+    def _order(self) -> IntArray:
+        """Spheres in an order that makes those of a leaf contiguous."""
+        return np.arange(len(self.mobility.radii)) if self.far is None else self.far.tree.order
+
+    @cached_property
+    def _sorted_spheres(self) -> tuple[FloatArray, FloatArray]:
+        """Centres (3, N) and radii (N,)."""
+        mobility, order = self.mobility, self._order
+        return np.ascontiguousarray(mobility.centers[order].T), mobility.radii[order]
 
     @cached_property
     def _ranges(self) -> tuple[IntArray, IntArray, IntArray]:
-        """All spheres are one group, and see one range: all spheres."""
+        """Group (N,) of every sphere, first range (G + 1,) of every group, ranges (R, 2) of spheres near to it."""
         count = len(self.mobility.radii)
-        return np.zeros(count, np.intp), np.array([0, 1]), np.array([[0, count]])
+        if self.far is None:
+            return np.zeros(count, np.intp), np.array([0, 1]), np.array([[0, count]])
+        leaf_starts = self.far.tree.leaf_starts
+        starts, leaves = self.far.tree.neighbours
+        group = np.repeat(np.arange(len(leaf_starts) - 1), np.diff(leaf_starts))
+        return group, starts, np.stack([leaf_starts[leaves], leaf_starts[leaves + 1]], axis=1)
 
     @cached_property
     def _scale(self) -> FloatArray:
         """Arm (N, 3 or 11, 1) of each component: one for force and velocity, the radius for the others."""
         rows = len(self._to_loads)
         scale = np.ones((len(self.mobility.radii), rows, 1))
-        scale[:, 3:] = self.mobility.radii[:, None, None]
+        scale[:, 3:] = self.mobility.radii[self._order, None, None]
         return scale
 
     @cached_property

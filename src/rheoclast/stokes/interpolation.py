@@ -6,11 +6,11 @@ G = 1/r + rr/r³ only scales. Tractions are first spread to forces on a grid of 
     w_β = ∫ ψ(u) L_β(x + a u) du,    L_β the interpolation polynomials of the box enlarged by the radius,
 
 (Fong & Darve, J. Comput. Phys. 228 (2009) 8712). A Stokes flow outside a cube is given by its values on the cube, so
-the flow of everything in the box is known beyond its neighbours once known on the surface of the cube of 27 boxes. There
-the flows of spheres in the box span few directions X to any accuracy: singular value decomposition of (flow on the
+the flow of everything in the box is known beyond its neighbours once known on the surface of the cube of 27 boxes.
+There the flows of spheres in the box span few directions X to any accuracy: the singular vectors of (flow on the
 surface) ← (forces on the nodes) ← (tractions of spheres). A flow's components on X are the *coefficients* of the box,
-c = Zᵀ w, and w is replaced by S c. Box to box: C_t = Sᵀ K_t S with K_t the Oseen tensor between the nodes; the transpose of
-every step brings the velocity back, which keeps the whole symmetric.
+c = Zᵀ w, and w is replaced by S c. Box to box: C_t = Sᵀ K_t S with K_t the Oseen tensor between the nodes; the
+transpose of every step brings the velocity back, which keeps the whole symmetric.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from scipy.linalg import svd
 from scipy.spatial import cKDTree
 
 from rheoclast import _checks
-from rheoclast._checks import FloatArray, IntArray
+from rheoclast._checks import FloatArray
 from rheoclast.stokes.basis import MultipoleBasis
 from rheoclast.stokes.harmonics import real_harmonics, sphere_quadrature
 
@@ -97,24 +97,19 @@ class BoxOperators:
         return self.project.shape[2]
 
     def coefficients(self, centers: FloatArray, radii: FloatArray) -> FloatArray:
-        """Coefficients (n, M, R) of unit tractions on spheres, centres (n, 3) from the box's and radii (n,) in sides."""
+        """Coefficients (n, M, R) of unit tractions on spheres, (n, 3) from the centre of the box and of radii (n,)."""
         spread = _spread(self.basis.order, self.grid, centers, radii)
-        projected = np.stack([spread @ axis for axis in self.project], axis=1)
-        count = len(radii)
-        return (_components(self.basis).reshape(self.basis.size, -1) @ projected.reshape(count, -1, self.rank))
-
-    @cached_property
-    def _factors(self) -> dict[Offset, tuple[FloatArray, FloatArray]]:
-        return {}
+        nodes, count = spread.shape[2], len(radii)
+        projected = np.stack(
+            [(spread.reshape(-1, nodes) @ axis).reshape(count, -1, self.rank) for axis in self.project], axis=1
+        )
+        return _components(self.basis).reshape(self.basis.size, -1) @ projected.reshape(count, -1, self.rank)
 
     def factors(self, offset: Offset) -> tuple[FloatArray, FloatArray]:
         """Q and R (R, R_t), target and source coefficients, of the flow of a source box `offset` sides away."""
-        if offset not in self._factors:
-            turn = _turn_to(offset)
-            matrix = self.symmetries[turn.tobytes()]
-            target, source = self.kernels[_standard(offset)]
-            self._factors[offset] = (matrix @ target, matrix @ source)
-        return self._factors[offset]
+        matrix = self.symmetries[_turn_to(offset).tobytes()]
+        target, source = self.kernels[_standard(offset)]
+        return matrix @ target, matrix @ source
 
 
 @cache
@@ -201,11 +196,11 @@ def _transfers(grid: Grid, project: FloatArray, represent: FloatArray) -> FloatA
 def _kernels(
     grid: Grid, represent: FloatArray, weights: FloatArray, truncation: float
 ) -> dict[Offset, tuple[FloatArray, FloatArray]]:
-    """Factors of C_t for the offsets 0 ≤ x ≤ y ≤ z, cut where a coefficient times its weight is below the truncation."""
-    standard = [t for t in product(range(4), repeat=3) if t[0] <= t[1] <= t[2] and t[2] > 1]
+    """Factors of C_t for the offsets 0 ≤ x ≤ y ≤ z, cut where the remainder times both weights is negligible."""
+    standard = [(x, y, z) for z in (2, 3) for y in range(z + 1) for x in range(y + 1)]
     dense = {t: represent.T @ (_oseen(grid.points, grid.points + np.array(t)) @ represent) for t in standard}
     scaled = {t: weights[:, None] * matrix * weights for t, matrix in dense.items()}
-    smallest = 0.1 * truncation * max(float(np.abs(matrix).max()) for matrix in scaled.values())
+    smallest = 0.3 * truncation * max(float(np.abs(matrix).max()) for matrix in scaled.values())
     return {t: _low_rank(matrix, weights, smallest) for t, matrix in scaled.items()}
 
 
@@ -223,7 +218,7 @@ def _symmetries(surface: FloatArray, modes: FloatArray) -> dict[bytes, FloatArra
     fields = modes.reshape(3, len(surface), -1)
     symmetries = {}
     for turn in _turns():
-        origin: IntArray = points.query(surface @ turn)[1]  # turn⁻¹ of every point
+        origin = np.asarray(points.query(surface @ turn)[1])  # turn⁻¹ of every point
         turned = np.einsum("kj,jpr->kpr", turn, fields[:, origin]).reshape(len(modes), -1)
         symmetries[turn.tobytes()] = modes.T @ turned
     return symmetries

@@ -22,6 +22,10 @@ REACH = 2.0
 """Length scales within which a sphere is conditioned on coarser ones."""
 TOLERANCE_OF_LOWER_ORDER = 3e-3
 """The order below only serves the error bar."""
+LARGEST_DIRECT = 5_000
+"""Spheres up to which all pairs are summed directly."""
+FAR_FIELD_SHARE = 10.0
+"""Accuracy of the far field over the tolerance: it errs a tenth of its accuracy for the smooth flows that matter."""
 UNKNOWNS_FOR_THREADED_ALGEBRA = 100_000
 
 
@@ -75,11 +79,13 @@ class BlockConjugateGradients(Solver):
 def _solution(mobility: Mobility, velocities: FloatArray, tolerance: float, progress: Progress | None) -> Solution:
     # Numba takes a second to import: only those who solve pay for it.
     from rheoclast.stokes.conjugate_gradients import conjugate_gradients
+    from rheoclast.stokes.far_field import far_field
     from rheoclast.stokes.fast_mobility import FastMobility
     from rheoclast.stokes.preconditioner import inverse_factor
 
     start = time.perf_counter()
     count, modes, columns = velocities.shape
+    accuracy = min(max(FAR_FIELD_SHARE * tolerance, 1e-7), 1e-2)
     name = f"conjugate gradients, order {mobility.basis.order}"
 
     def report(residual: float) -> None:
@@ -88,7 +94,8 @@ def _solution(mobility: Mobility, velocities: FloatArray, tolerance: float, prog
 
     with _calm_threads(count * modes):
         factor = inverse_factor(mobility.centers, mobility.radii, mobility.basis, REACH)
-        apply = FastMobility(mobility)
+        far = far_field(mobility.centers, mobility.radii, mobility.basis, accuracy) if count > LARGEST_DIRECT else None
+        apply = FastMobility(mobility, far)
 
         def preconditioned(vectors: FloatArray) -> FloatArray:
             image = factor.lower(apply(factor.upper(vectors.reshape(count, modes, columns))))

@@ -144,7 +144,9 @@ def octree(points: FloatArray, side: float) -> Octree:
     lowest, highest = points.min(axis=0), points.max(axis=0)
     depth = max(0, int(np.ceil(np.log2(max(float((highest - lowest).max()) / side, 1.0)))))
     if depth > DEPTH_LIMIT:
-        raise ValueError(f"centers: expected at most {2**DEPTH_LIMIT} leaves across, got 2^{depth}; parts lie too far apart")
+        raise ValueError(
+            f"centers: expected at most {2**DEPTH_LIMIT} leaves across, got 2^{depth}; parts lie too far apart"
+        )
     corner = (lowest + highest) / 2 - side * 2.0**depth / 2
     cells = np.clip(np.floor((points - corner) / side).astype(np.intp), 0, 2**depth - 1)
     keys = _keys_of(cells)
@@ -181,7 +183,13 @@ def _cells_of(keys: IntArray) -> IntArray:
     return np.stack([_gather_bits(keys >> 2), _gather_bits(keys >> 1), _gather_bits(keys)], axis=1)
 
 
-BIT_STEPS = ((32, 0x1F00000000FFFF), (16, 0x1F0000FF0000FF), (8, 0x100F00F00F00F00F), (4, 0x10C30C30C30C30C3), (2, 0x1249249249249249))
+BIT_STEPS = (
+    (32, 0x1F00000000FFFF),
+    (16, 0x1F0000FF0000FF),
+    (8, 0x100F00F00F00F00F),
+    (4, 0x10C30C30C30C30C3),
+    (2, 0x1249249249249249),
+)
 
 
 def _spread_bits(number: IntArray) -> IntArray:
