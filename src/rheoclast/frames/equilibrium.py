@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import csr_array
+from scipy.sparse import bsr_array
 
 from rheoclast._checks import FloatArray, IntArray
 from rheoclast.vectors import cross_matrix
 
 
-def equilibrium_matrix(nodes: FloatArray, pairs: IntArray, points: FloatArray) -> csr_array:
+def equilibrium_matrix(nodes: FloatArray, pairs: IntArray, points: FloatArray) -> bsr_array:
     """Sparse matrix T (6N, 6C): force and torque on the nodes from the loads of the joints.
 
     A joint's force f and moment m act as (f, r × f + m) on its first node and as the opposite on its second, with r
@@ -24,10 +24,8 @@ def equilibrium_matrix(nodes: FloatArray, pairs: IntArray, points: FloatArray) -
     count = len(pairs)
     blocks = np.zeros((count, 2, 6, 6))
     blocks[:] = np.eye(6)
-    blocks[:, :, 3:, :3] = cross_matrix(points[:, None] - nodes[pairs])
+    blocks[:, :, :3, 3:] = cross_matrix(points[:, None] - nodes[pairs]).swapaxes(-2, -1)
     blocks[:, 1] *= -1
-    six = np.arange(6)
-    rows = np.broadcast_to(6 * pairs[:, :, None, None] + six[:, None], blocks.shape)
-    columns = np.broadcast_to(6 * np.arange(count)[:, None, None, None] + six, blocks.shape)
-    keep = blocks != 0
-    return csr_array((blocks[keep], (rows[keep], columns[keep])), shape=(6 * len(nodes), 6 * count))
+    # A row of Tᵀ has the blocks of the joint's two nodes, as they are listed.
+    transposed = (blocks.reshape(-1, 6, 6), pairs.ravel(), np.arange(0, 2 * count + 1, 2))
+    return bsr_array(transposed, shape=(6 * count, 6 * len(nodes))).T

@@ -3,16 +3,27 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from scipy.sparse import bsr_array, csr_array
-from scipy.sparse.linalg import SuperLU, splu
+from scipy.sparse.linalg import splu
 
 from rheoclast._checks import FloatArray, IntArray
+from rheoclast.frames.cholesky import frontal_cholesky
+from rheoclast.frames.dissection import dissection
 from rheoclast.frames.equilibrium import equilibrium_matrix
 
+LARGEST_BY_SUPERLU = 5000  # nodes; the fronts' BLAS pays beyond
 ROUNDING = 1e-13
 MOST_REFINEMENTS = 12
+
+
+class Factor(Protocol):
+    """Factors of a matrix, ready to solve with."""
+
+    def solve(self, rhs: FloatArray, /) -> FloatArray:
+        """Solution (n, K) for right-hand sides (n, K)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,9 +40,9 @@ class SpringFrame:
         Factors of the stiffness with node 0 held.
     """
 
-    equilibrium: csr_array
-    stress: csr_array
-    factor: SuperLU
+    equilibrium: bsr_array
+    stress: bsr_array
+    factor: Factor
 
     def joint_loads(self, loads: FloatArray) -> FloatArray:
         """Joint loads (C, 6, K) under balanced loads (N, 6, K).
@@ -48,9 +59,11 @@ class SpringFrame:
         cases = loads.reshape(-1, loads.shape[-1])
         size = np.abs(cases).max(axis=0)
         carried = np.zeros((self.stress.shape[0], cases.shape[1]))
+        moved = np.zeros_like(cases)
         unbalanced, left = cases, size
         for _ in range(MOST_REFINEMENTS):
-            carried += self.stress[:, 6:] @ self.factor.solve(unbalanced[6:])
+            moved[6:] = self.factor.solve(unbalanced[6:])
+            carried += self.stress @ moved
             unbalanced = cases + self.equilibrium @ carried
             before, left = left, np.abs(unbalanced[6:]).max(axis=0)
             if (left <= ROUNDING * size).all() or (left > 0.5 * before).all():
@@ -78,17 +91,23 @@ def spring_frame(nodes: FloatArray, pairs: IntArray, points: FloatArray, stiffne
     equilibrium = equilibrium_matrix(nodes, pairs, points)
     difference = nodes[pairs[:, 1]] - nodes[pairs[:, 0]]
     normals = difference / np.linalg.norm(difference, axis=1, keepdims=True)
-    stress = csr_array(-_joint_stiffness(normals, stiffness) @ equilibrium.T)
-    total = csr_array(-equilibrium @ stress)
-    held = total[6:, 6:].tocsc()
-    # Positive definite: pivots stay on the diagonal, and a symmetric ordering halves the fill.
+    stress = -_joint_stiffness(normals, stiffness) @ equilibrium.T
+    held = (-equilibrium @ stress).tocsr()[6:, 6:]
     try:
-        factor = splu(held, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-    except RuntimeError:  # SuperLU met a pivot of zero
+        factor = _factorized(held, nodes[1:], pairs[(pairs > 0).all(axis=1)] - 1)
+    except (RuntimeError, ArithmeticError):  # SuperLU met a pivot of zero, or Cholesky none above it
         raise ArithmeticError(
             "the frame is singular to rounding: the stiffnesses differ by too many decades; bring them closer together"
         ) from None
     return SpringFrame(equilibrium, stress, factor)
+
+
+def _factorized(stiffness: csr_array, nodes: FloatArray, pairs: IntArray) -> Factor:
+    if len(nodes) > LARGEST_BY_SUPERLU:
+        return frontal_cholesky(stiffness.tobsr((6, 6)), dissection(nodes, pairs))
+    # Positive definite: pivots stay on the diagonal, and a symmetric ordering halves the fill.
+    options = {"SymmetricMode": True}
+    return splu(stiffness.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
 
 
 def _joint_stiffness(normals: FloatArray, stiffness: FloatArray) -> bsr_array:

@@ -14,6 +14,7 @@ from rheoclast.frames.statics import tree_loads
 from rheoclast.loads import SphereLoads
 from rheoclast.mechanics.bonds import Bonds
 from rheoclast.particles.aggregate import Aggregate
+from rheoclast.vectors import LEVI_CIVITA
 
 Method = Literal["auto", "statics", "springs"]
 BALANCE_TOLERANCE = 1e-8
@@ -152,15 +153,16 @@ def _check(aggregate: Aggregate, loads: SphereLoads) -> None:
 
 def _refuse_unbalanced(arms: FloatArray, loads: SphereLoads) -> None:
     extent = np.linalg.norm(arms, axis=1).max()
-    force_size = np.linalg.norm(loads.force, axis=-1)
-    torque_size = np.linalg.norm(loads.torque, axis=-1) + extent * force_size
-    moments = np.cross(arms, loads.force) + loads.torque
+    force_size = np.linalg.norm(loads.force, axis=-1).sum(axis=-1)
+    torque_size = np.linalg.norm(loads.torque, axis=-1).sum(axis=-1) + extent * force_size
+    force = loads.force.sum(axis=-2)
+    torque = loads.torque.sum(axis=-2) + np.einsum("ijk,...jk->...i", LEVI_CIVITA, arms.T @ loads.force)  # Σ x × F
     rounding = len(arms) * loads.rounding
-    for name, each, sizes, slack in (
-        ("force", loads.force, force_size, rounding),
-        ("torque", moments, torque_size, extent * rounding),
+    for name, resultant, size, slack in (
+        ("force", force, force_size, rounding),
+        ("torque", torque, torque_size, extent * rounding),
     ):
-        total, gross = np.ravel(np.linalg.norm(each.sum(axis=-2), axis=-1)), np.ravel(sizes.sum(axis=-1))
+        total, gross = np.ravel(np.linalg.norm(resultant, axis=-1)), np.ravel(size)
         unbalanced = np.flatnonzero(total > BALANCE_TOLERANCE * gross + slack)
         if len(unbalanced):
             case = int(unbalanced[0])

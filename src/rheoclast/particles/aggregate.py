@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -60,21 +61,21 @@ class Aggregate:
         """The same aggregate turned about the origin by a (3, 3) rotation matrix or a SciPy `Rotation`."""
         return Aggregate(self.spheres.rotated(rotation), self.pairs)
 
-    @property
+    @cached_property
     def normals(self) -> FloatArray:
         """Unit vectors (C, 3) from sphere i to sphere j of every contact."""
         first, second = self.pairs.T
         difference = self.spheres.centers[second] - self.spheres.centers[first]
-        return difference / np.linalg.norm(difference, axis=1, keepdims=True)
+        return _checks.frozen(difference / np.linalg.norm(difference, axis=1, keepdims=True))
 
-    @property
+    @cached_property
     def contact_points(self) -> FloatArray:
         """Points of contact (C, 3) in m: where the surfaces meet, or midway in a small gap or overlap."""
         first, second = self.pairs.T
         centers, radii = self.spheres.centers, self.spheres.radii
         distance = np.linalg.norm(centers[second] - centers[first], axis=1)
         arm = 0.5 * (distance + radii[first] - radii[second])
-        return centers[first] + arm[:, None] * self.normals
+        return _checks.frozen(centers[first] + arm[:, None] * self.normals)
 
     @property
     def hyperstaticity(self) -> int:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -76,10 +77,10 @@ class Spheres:
         """Volume of every sphere, (N,), in m³."""
         return 4 / 3 * np.pi * self.radii**3
 
-    @property
+    @cached_property
     def center_of_mass(self) -> FloatArray:
         """Centre of mass at uniform density, (3,), in m."""
-        return np.average(self.centers, axis=0, weights=self.volumes)
+        return _checks.frozen(np.average(self.centers, axis=0, weights=self.volumes))
 
 
 def _refuse_extreme(name: str, lengths: FloatArray) -> None:

@@ -9,7 +9,6 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
-from scipy.special import sph_harm_y
 
 from rheoclast import _checks
 from rheoclast._checks import FloatArray
@@ -17,6 +16,8 @@ from rheoclast._checks import FloatArray
 
 def real_harmonics(degree: int, directions: FloatArray) -> FloatArray:
     """Values (..., 2n + 1) of the real harmonics of degree n at unit vectors (..., 3)."""
+    from scipy.special import sph_harm_y  # slow to import, and needed by few
+
     polar, azimuth = _angles(directions)
     order = np.arange(-degree, degree + 1)
     magnitude = np.abs(order)

@@ -5,8 +5,6 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
-import psutil
-
 from rheoclast._checks import FloatArray
 from rheoclast.stokes.basis import MultipoleBasis
 from rheoclast.stokes.mobility import Mobility, Progress
@@ -62,6 +60,8 @@ class Solver(ABC):
         MemoryError
             With what is needed, what is free, and what to do.
         """
+        import psutil
+
         count, basis = len(mobility.radii), mobility.basis
         needed, available = self.memory(count, basis), psutil.virtual_memory().available
         if needed > available:
