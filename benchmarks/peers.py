@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
+
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 from scipy.sparse.linalg import LinearOperator, cg
@@ -40,4 +42,5 @@ def pystokes(centers: np.ndarray) -> None:
             assert not failed
 
 
-PEERS = {"pygrpy": pygrpy, "PyStokes": pystokes}
+PEERS = {name: peer for name, peer in {"pygrpy": pygrpy, "pystokes": pystokes}.items() if find_spec(name)}
+"""Those that are installed."""

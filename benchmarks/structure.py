@@ -61,12 +61,13 @@ def porous_ball(count: int) -> rc.Aggregate:
 
 
 def balanced_loads(aggregate: rc.Aggregate) -> rc.SphereLoads:
-    """Random loads of order one whose totals vanish; twice, for what rounding left."""
+    """Random loads of order one whose totals vanish; twice, and summed with care, for what rounding left."""
     centers = aggregate.spheres.centers - aggregate.spheres.center_of_mass
     force, torque = np.random.default_rng(0).normal(size=(2, CASES, len(aggregate), 3))
     for _ in range(2):
         force -= force.mean(axis=1, keepdims=True)
-        torque -= (torque + np.cross(centers, force)).mean(axis=1, keepdims=True)
+        total = (torque + np.cross(centers, force)).sum(axis=1, keepdims=True, dtype=np.longdouble)
+        torque -= (total / len(aggregate)).astype(float)
     return rc.SphereLoads(force, torque)
 
 
