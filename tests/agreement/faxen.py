@@ -3,7 +3,7 @@
 Cartesian tensors, viscosity 1, written apart from the package. A sphere j with force F, torque L and stresslet S on
 the fluid makes the flow 8π u_i = (1 + a²/6 ∇²) G_ij F_j + ½ ε_jkl ∂_k G_ij L_l − (1 + a²/10 ∇²) ∂_k G_ij S_jk, with
 G the Oseen tensor of r = x − x_j; in a flow u, sphere i moves with U = (1 + a²/6 ∇²) u, Ω = ½ ∇ × u and strains with
-E = (1 + a²/10 ∇²) sym ∇u (theory notes, section 2). ∇⁴ G = 0, so that the two Laplacians of a pair add.
+E = (1 + a²/10 ∇²) sym ∇u. ∇⁴ G = 0, so that the two Laplacians of a pair add.
 """
 
 from functools import reduce

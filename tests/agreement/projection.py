@@ -1,6 +1,6 @@
 """Galerkin method of any order by quadrature over the spheres' surfaces.
 
-Written from its definition (theory notes, section 2) and apart from the package: no rotation of pairs, no translation
+Written from its definition and apart from the package: no rotation of pairs, no translation
 formulas. The density a² · traction of each sphere is expanded in vector spherical harmonics of the unit direction u,
 
     W_n = ∇s Y + n Y u (n = 1 … p),   X_n = u × ∇s Y (n = 1 … p−1),   V_n = ∇s Y − (n+1) Y u (n = 1 … p−2),

@@ -134,7 +134,7 @@ def test_vector_harmonics_are_orthogonal_with_the_stated_norms():
 
 @pytest.mark.parametrize("distance", [1.6, 2.5])
 def test_exterior_fields_are_single_layers(distance):
-    """The three velocity formulas of the theory notes against the Oseen surface integral of their tractions."""
+    """The three exterior fields of the hierarchy against the Oseen surface integral of their tractions."""
     points = distance * np.array([[0.6, 0.48, 0.64], [-0.8, 0.36, 0.48], [0, 0, 1]])
     direct = single_layers(points, lambda u: projection.densities(4, u), 1.0, nodes=40)
     np.testing.assert_allclose(projection.velocities(4, points), direct, atol=1e-12)
@@ -188,7 +188,7 @@ def test_faxen_route_gives_the_published_doublet():
 
 
 def test_quadrature_route_gives_the_orders_of_the_theory_notes():
-    """Doublet tension per unit e_nn at orders 2 to 8, table of section 2 of the theory notes, to its digits."""
+    """Doublet tension per unit e_nn at orders 2 to 8, to the digits of an independent Galerkin solver."""
     printed = {2: 35.9039, 3: 37.784, 4: 38.378, 5: 38.494, 6: 38.480, 8: 38.433}
     strain = STRAIN_BASIS.reshape(5, 9) @ np.diag([-0.5, -0.5, 1]).ravel()
     for order, tension in printed.items():

@@ -16,7 +16,7 @@ from .clusters import sticking_cluster
 
 FINEST = 8
 FLOW = rc.simple_shear(1.0)
-BONDS = rc.Bonds(1.0, 0.8, 6e-3, 8e-3)  # stiffness ratios of JKR contacts (theory notes, section 3)
+BONDS = rc.Bonds(1.0, 0.8, 6e-3, 8e-3)  # stiffness ratios of JKR contacts
 LOADS = ("tension", "shear", "bending", "twisting")
 
 

@@ -238,7 +238,7 @@ def test_worst_tension_does_not_depend_on_where_one_starts(tabulated):
 
 
 def test_extension_is_twice_as_bad_as_shear(tabulated):
-    """Planar extension and simple shear of equal rate: strain rates ±1 against ±1/2 (theory.md, section 4)."""
+    """Planar extension and simple shear of equal rate: strain rates ±1 against ±1/2."""
     *_, table = tabulated
     np.testing.assert_allclose(
         table.worst_tension(FLOWS["planar"]), 2 * table.worst_tension(FLOWS["shear"]), rtol=1e-12

@@ -152,7 +152,7 @@ def test_twisting_stiffness_of_a_bonded_disc(material, radii):
 
 
 def test_worked_example_of_the_theory_notes():
-    """theory.md, section 3: E = 3.4 GPa, ν = 0.33, a = 0.5 µm, W = 0.1 J/m², to the digits given there."""
+    """Worked by hand: E = 3.4 GPa, ν = 0.33, a = 0.5 µm, W = 0.1 J/m², to three digits."""
     a = 0.5e-6
     bonds = rc.jkr_bonds(doublet((a, a)), EXAMPLE)
     (normal,), (bending,), (twisting,) = (np.ravel(x) for x in (bonds.normal, bonds.bending, bonds.twisting))

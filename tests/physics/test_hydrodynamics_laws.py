@@ -35,7 +35,7 @@ MODELS = {
 }
 GRADIENT = np.array([[0.3, 1.1, -0.4], [0.2, -0.9, 0.7], [-1.3, 0.5, 0.6]])
 FLOW = rc.LinearFlow(GRADIENT)
-ROUNDING = 1e-11  # condition numbers below 10³ (theory notes, section 6) times 1e-16, and room for sums
+ROUNDING = 1e-11  # condition numbers below 10³ times 1e-16, and room for sums
 
 
 @cache

@@ -70,7 +70,7 @@ def test_tension_is_a_pull(order_two):
 
 @pytest.mark.parametrize("count", [3, 4])
 def test_order_six_is_near_the_converged_value(count):
-    """Order 6 errs by 0.13 % in the doublet's tension (theory notes, section 2); half a per cent, with bending."""
+    """Order 6 errs by 0.13 % in the doublet's tension; half a per cent, with bending."""
     ours, expected = measures(count, 6), CHAINS[str(count)]["converged"]
     for name in NAMES:
         largest = np.max(np.abs(expected[name]))

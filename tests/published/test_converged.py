@@ -43,7 +43,7 @@ def test_axial_rotation_of_the_doublet_in_closed_form(order_twelve):
 
 
 def test_tension_of_the_doublet_order_by_order():
-    """Table of section 2 of the theory notes in all its digits, from the nested orders of one solution."""
+    """Doublet tension by an independent Galerkin solver, in all its digits, from the nested orders of one solution."""
     printed = {2: "35.9039", 3: "37.784", 4: "38.378", 5: "38.494", 6: "38.480", 8: "38.433", 10: "38.425"}
     aggregate = rc.Aggregate.touching(doublet.DOUBLET)
     response = rc.rigid_response(doublet.DOUBLET, rc.StokesianDynamics(order=10), viscosity=1.0)

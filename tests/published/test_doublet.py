@@ -81,7 +81,7 @@ def test_contact_force_is_along_the_axis_and_without_moment():
 
 @pytest.mark.parametrize("name", REFERENCE["converged"])
 def test_order_eight_is_near_the_converged_value(order_eight, name):
-    """The theory notes give +0.01 % for the tension at order 8; drags, spins and stresslets feel the contact less.
+    """An independent Galerkin solver gives +0.01 % for the tension at order 8; drags, spins and stresslets feel the contact less.
 
     The shear converges more slowly, and like the tension not from one side: the projection by quadrature of
     tests/agreement, which knows nothing of the package, has it 0.40 % above at order 6, 0.14 % above at order 8 and
@@ -92,7 +92,7 @@ def test_order_eight_is_near_the_converged_value(order_eight, name):
 
 
 def test_tension_of_every_order():
-    """Table of section 2 of the theory notes, to the digits printed there."""
+    """Doublet tension by an independent Galerkin solver, to its digits."""
     printed = {2: 35.9039, 3: 37.784, 4: 38.378, 5: 38.494, 6: 38.480, 8: 38.433}
     aggregate = rc.Aggregate.touching(DOUBLET)
     for order, tension in printed.items():

@@ -1,4 +1,4 @@
-"""The modes of traction on a sphere, in the hierarchy of theory: force, torque, stresslet, and on.
+"""The modes of traction on a sphere, rank by rank: force, torque and stresslet, and on.
 
 Modes are the vector spherical harmonics of the unit vector u,
 
