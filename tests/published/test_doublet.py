@@ -81,7 +81,7 @@ def test_contact_force_is_along_the_axis_and_without_moment():
 
 @pytest.mark.parametrize("name", REFERENCE["converged"])
 def test_order_eight_is_near_the_converged_value(order_eight, name):
-    """An independent Galerkin solver gives +0.01 % for the tension at order 8; drags, spins and stresslets feel the contact less.
+    """An independent Galerkin solver gives +0.01 % for the tension at order 8; drags, spins and stresslets feel less.
 
     The shear converges more slowly, and like the tension not from one side: the projection by quadrature of
     tests/agreement, which knows nothing of the package, has it 0.40 % above at order 6, 0.14 % above at order 8 and
