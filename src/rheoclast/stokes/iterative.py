@@ -26,6 +26,8 @@ LARGEST_DIRECT = 5_000
 """Spheres up to which all pairs are summed directly."""
 FAR_FIELD_SHARE = 10.0
 """Accuracy of the far field over the tolerance: it errs a tenth of its accuracy for the smooth flows that matter."""
+COEFFICIENTS_OF_A_BOX = 450
+"""In single precision, at the accuracy that the default tolerance asks for."""
 UNKNOWNS_FOR_THREADED_ALGEBRA = 100_000
 
 
@@ -39,7 +41,7 @@ class BlockConjugateGradients(Solver):
     tolerance
         Largest residual of any right-hand side over its norm, both measured in the preconditioned space, where the
         operator is near the identity. Contact loads are then good to about the tolerance, as a share of the
-        largest; moments in long straight chains to ten times it (see `tests/agreement/test_iterative.py`).
+        largest; moments in long straight chains to some forty times it (see `tests/agreement/test_iterative.py`).
     """
 
     tolerance: float = 1e-6
@@ -72,8 +74,9 @@ class BlockConjugateGradients(Solver):
         return found
 
     def memory(self, count: int, basis: MultipoleBasis) -> float:
-        """Bytes of sixteen blocks of vectors, and of the factor in single precision for a compact cluster."""
-        return count * basis.size * (8.0 * 16 * 11 + 4.0 * 25 * basis.size)
+        """Bytes of sixteen blocks of vectors, of the factor for a compact cluster and of the octree's coefficients."""
+        far_field = 4.0 * COEFFICIENTS_OF_A_BOX if count > LARGEST_DIRECT else 0.0
+        return count * basis.size * (8.0 * 16 * 11 + 4.0 * 25 * basis.size + far_field)
 
 
 def _solution(mobility: Mobility, velocities: FloatArray, tolerance: float, progress: Progress | None) -> Solution:
