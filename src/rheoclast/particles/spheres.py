@@ -55,8 +55,8 @@ class Spheres:
         object.__setattr__(self, "centers", centers)
         object.__setattr__(self, "radii", radii)
         _checks.not_negative("overlap_tolerance", self.overlap_tolerance)
-        for name, lengths in (("centers", centers), ("radii", radii)):
-            _refuse_extreme(name, lengths)
+        _refuse_extreme("centers", centers, smallest=0.0)
+        _refuse_extreme("radii", radii, smallest=1 / EXTREME_LENGTH)
         _refuse_overlap(centers, radii, self.overlap_tolerance)
 
     def __len__(self) -> int:
@@ -83,11 +83,12 @@ class Spheres:
         return _checks.frozen(np.average(self.centers, axis=0, weights=self.volumes))
 
 
-def _refuse_extreme(name: str, lengths: FloatArray) -> None:
-    """Refuse lengths whose powers overflow."""
-    extreme = (np.abs(lengths) > EXTREME_LENGTH) | ((lengths != 0) & (np.abs(lengths) < 1 / EXTREME_LENGTH))
-    if (name == "radii" and extreme.any()) or (np.abs(lengths) > EXTREME_LENGTH).any():
-        item = tuple(int(k) for k in np.argwhere(extreme)[0])
+def _refuse_extreme(name: str, lengths: FloatArray, smallest: float) -> None:
+    """Refuse lengths whose powers overflow or vanish."""
+    size = np.abs(lengths)
+    extreme = np.argwhere((size > EXTREME_LENGTH) | (size < smallest))
+    if len(extreme):
+        item = tuple(int(k) for k in extreme[0])
         raise ValueError(
             f"{name}{list(item)}: expected a length between 1e-50 and 1e50, got {lengths[item]:.3g}; check the unit"
         )

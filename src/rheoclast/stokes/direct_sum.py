@@ -11,8 +11,6 @@ from numba import njit, prange
 
 from rheoclast._checks import FloatArray, IntArray
 
-COMPONENTS = 11
-
 
 @njit(parallel=True, fastmath=True, error_model="numpy", cache=True)
 def pair_velocities(
