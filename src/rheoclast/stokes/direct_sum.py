@@ -1,7 +1,9 @@
 """Direct sums at order 2, force, torque and stresslet in closed form (Faxén), compiled by Numba.
 
 Arrays are stored component by component with the spheres last, so that the innermost loop runs over source spheres in
-contiguous memory and vectorizes. Tensors that are symmetric and traceless are given by xx, xy, xz, yy, yz.
+contiguous memory and vectorizes. It runs over slices of one component each and counts from zero: an index that the
+compiler must suspect of being negative, or a slice of several components, turns every load into a gather and halves the
+speed. Tensors that are symmetric and traceless are given by xx, xy, xz, yy, yz.
 """
 
 from __future__ import annotations
@@ -47,19 +49,24 @@ def pair_velocities(
         for k in range(loads.shape[0]):
             ux = uy = uz = wx = wy = wz = exx = exy = exz = eyy = eyz = 0.0
             for part in range(first_range[group[i]], first_range[group[i] + 1]):
-                for j in range(ranges[part, 0], ranges[part, 1]):
-                    dx, dy, dz = xi - centers[0, j], yi - centers[1, j], zi - centers[2, j]
-                    square = dx * dx + dy * dy + dz * dz
-                    inverse = 0.0 if i == j else 1.0 / np.sqrt(square)
+                first, end = ranges[part, 0], ranges[part, 1]
+                x, y, z, b = centers[0, first:end], centers[1, first:end], centers[2, first:end], radii[first:end]
+                load = loads[k]
+                force_x, force_y, force_z = load[0, first:end], load[1, first:end], load[2, first:end]
+                torque_x, torque_y, torque_z = load[3, first:end], load[4, first:end], load[5, first:end]
+                xx, xy, xz = load[6, first:end], load[7, first:end], load[8, first:end]
+                yy, yz = load[9, first:end], load[10, first:end]
+                for j in range(end - first):
+                    dx, dy, dz = xi - x[j], yi - y[j], zi - z[j]
+                    inverse = 0.0 if j == i - first else 1.0 / np.sqrt(dx * dx + dy * dy + dz * dz)
                     g2 = inverse * inverse
                     g3 = inverse * g2
                     g5 = g3 * g2
                     g7 = g5 * g2
-                    bj = radii[j] ** 2
-                    fx, fy, fz = loads[k, 0, j], loads[k, 1, j], loads[k, 2, j]
-                    tx, ty, tz = loads[k, 3, j], loads[k, 4, j], loads[k, 5, j]
-                    sxx, sxy, sxz = loads[k, 6, j], loads[k, 7, j], loads[k, 8, j]
-                    syy, syz = loads[k, 9, j], loads[k, 10, j]
+                    bj = b[j] ** 2
+                    fx, fy, fz = force_x[j], force_y[j], force_z[j]
+                    tx, ty, tz = torque_x[j], torque_y[j], torque_z[j]
+                    sxx, sxy, sxz, syy, syz = xx[j], xy[j], xz[j], yy[j], yz[j]
                     px = sxx * dx + sxy * dy + sxz * dz
                     py = sxy * dx + syy * dy + syz * dz
                     pz = sxz * dx + syz * dy - (sxx + syy) * dz
@@ -120,13 +127,16 @@ def force_velocities(
         for k in range(loads.shape[0]):
             ux = uy = uz = 0.0
             for part in range(first_range[group[i]], first_range[group[i] + 1]):
-                for j in range(ranges[part, 0], ranges[part, 1]):
-                    dx, dy, dz = xi - centers[0, j], yi - centers[1, j], zi - centers[2, j]
-                    inverse = 0.0 if i == j else 1.0 / np.sqrt(dx * dx + dy * dy + dz * dz)
+                first, end = ranges[part, 0], ranges[part, 1]
+                x, y, z, b = centers[0, first:end], centers[1, first:end], centers[2, first:end], radii[first:end]
+                force_x, force_y, force_z = loads[k, 0, first:end], loads[k, 1, first:end], loads[k, 2, first:end]
+                for j in range(end - first):
+                    dx, dy, dz = xi - x[j], yi - y[j], zi - z[j]
+                    inverse = 0.0 if j == i - first else 1.0 / np.sqrt(dx * dx + dy * dy + dz * dz)
                     g2 = inverse * inverse
                     g3 = inverse * g2
-                    both = ai + radii[j] ** 2
-                    fx, fy, fz = loads[k, 0, j], loads[k, 1, j], loads[k, 2, j]
+                    both = ai + b[j] ** 2
+                    fx, fy, fz = force_x[j], force_y[j], force_z[j]
                     along = (g3 - both * g3 * g2) * (dx * fx + dy * fy + dz * fz)
                     force = inverse + both / 3 * g3
                     ux += force * fx + along * dx

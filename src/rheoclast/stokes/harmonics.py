@@ -55,33 +55,14 @@ def raising(degree: int) -> FloatArray:
     return _checks.frozen(np.einsum("q,qa,qk,qb->kab", weights, upper, directions, lower))
 
 
-def rotations(degree: int, directions: FloatArray) -> FloatArray:
-    """Rotation matrices D (P, 2n + 1, 2n + 1) that carry the z axis to unit vectors (P, 3).
-
-    A function with components c on the harmonics of the turned frame has components D c on those of the fixed frame.
-    D = Z(φ) J Z(θ) Jᵀ with Z a turn about z and J the fixed quarter turn that carries z to y.
-    """
-    polar, azimuth = _angles(directions)
-    quarter = _quarter_turn(degree)
-    about_y = quarter @ _turned_about_z(polar, quarter.T)
-    return _turned_about_z(azimuth, about_y)
-
-
 def _angles(directions: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Polar angle and azimuth (...) of unit vectors (..., 3), accurate at the poles as well."""
     x, y, z = np.moveaxis(directions, -1, 0)
     return np.arctan2(np.hypot(x, y), z), np.arctan2(y, x)
 
 
-def _turned_about_z(angle: FloatArray, components: FloatArray) -> FloatArray:
-    """Components (P, 2n + 1, K) of functions (..., 2n + 1, K) after turns by angles (P,) about z."""
-    degree = components.shape[-2] // 2
-    phase = angle[:, None] * np.arange(-degree, degree + 1)
-    return np.cos(phase)[..., None] * components - np.sin(phase)[..., None] * components[..., ::-1, :]
-
-
 @cache
-def _quarter_turn(degree: int) -> FloatArray:
+def quarter_turn(degree: int) -> FloatArray:
     """Components of the harmonics turned by −π/2 about x, which carries z to y."""
     directions, weights = sphere_quadrature(2 * degree)
     turned_back = np.stack([directions[:, 0], -directions[:, 2], directions[:, 1]], axis=1)

@@ -54,14 +54,17 @@ class Mobility:
     def matrix(self, progress: Progress | None = None) -> FloatArray:
         """The dense matrix (M, N, M, N), mode before sphere: its leading part is the matrix of every lower order."""
         count, modes = len(self.radii), self.basis.size
-        matrix = np.zeros((modes, count, modes, count))
-        mode, sphere = np.arange(modes)[:, None], np.arange(count)
-        matrix[mode, sphere, mode, sphere] = self.basis.self_mobility[:, None] / self.radii
-        for i, others, blocks in self._rows():
-            matrix[:, i, :, others] = blocks.transpose(1, 2, 0)
-            matrix[:, others, :, i] = blocks.transpose(2, 0, 1)
+        from rheoclast.stokes.pair_kernels import matrix_rows
+
+        matrix = np.empty((modes, count, modes, count))
+        piece = max(1, count // 20)
+        for first in range(0, count, piece):
+            last = min(first + piece, count)
+            matrix_rows(self.centers, self.radii, self._coefficients.elements, first, last, matrix)
             if progress is not None:
-                progress("pair mobilities", ((i + 1) / count) ** 2)
+                progress("pair mobilities", last / count)
+        own = np.arange(count)
+        matrix[:, own, :, own] = np.diag(self.basis.self_mobility) / self.radii[:, None, None]
         return matrix
 
     def _rows(self) -> Iterator[tuple[int, slice, FloatArray]]:

@@ -17,14 +17,21 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache, cached_property
 from math import factorial, prod
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rheoclast import _checks
-from rheoclast._checks import FloatArray
+from rheoclast._checks import FloatArray, IntArray
 from rheoclast.stokes.basis import Family, MultipoleBasis
-from rheoclast.stokes.harmonics import rotations
+from rheoclast.stokes.harmonics import quarter_turn
+
+ROUNDING = 1e-9  # exceeds that of elements that vanish by symmetry; the others are of order one
+
+if TYPE_CHECKING:
+    from rheoclast.stokes.pair_kernels import AxialElements
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +43,7 @@ class PairCoefficients:
     extended: FloatArray
 
     @classmethod
+    @cache
     def of(cls, basis: MultipoleBasis) -> PairCoefficients:
         """Coefficients for a basis of any order."""
         direct, extended = np.zeros((2, basis.size, basis.size))
@@ -54,23 +62,40 @@ class PairCoefficients:
         radii_i, radii_j
             (P,) radii.
         """
-        distance = np.linalg.norm(separations, axis=1)
-        block = self._axial_blocks(distance, radii_i, radii_j)
-        directions = separations / distance[:, None]
-        turn = {degree: rotations(degree, directions) for degree in range(1, self.basis.order + 1)}
-        for family, where in zip(self.basis.families, self.basis.slices, strict=True):
-            block[:, where] = turn[family.degree] @ block[:, where]
-        for family, where in zip(self.basis.families, self.basis.slices, strict=True):
-            block[:, :, where] = block[:, :, where] @ turn[family.degree].transpose(0, 2, 1)
-        return block
+        from rheoclast.stokes.pair_kernels import pair_blocks
 
-    def _axial_blocks(self, distance: FloatArray, radii_i: FloatArray, radii_j: FloatArray) -> FloatArray:
-        rank = self.basis.rank
-        ratio_i, ratio_j = (radii_i / distance)[:, None], (radii_j / distance)[:, None]
-        rows, columns = ratio_i**rank / distance[:, None], ratio_j**rank
-        finite_size = 1 / (2 * (2 * rank + 3))
-        extent = (ratio_i**2 * finite_size)[:, :, None] + (ratio_j**2 * finite_size)[:, None, :]
-        return rows[:, :, None] * columns[:, None, :] * (self.direct + self.extended * extent)
+        blocks = np.empty((len(radii_i), self.basis.size, self.basis.size))
+        pair_blocks(separations, radii_i, radii_j, self.elements, blocks)
+        return blocks
+
+    @cached_property
+    def elements(self) -> AxialElements:
+        """Those that differ from zero, as the compiled sums take them."""
+        from rheoclast.stokes.pair_kernels import AxialElements, Modes
+
+        rows, columns = np.nonzero(np.abs(self.direct) + np.abs(self.extended) > ROUNDING)
+        families = list(zip(self.basis.families, self.basis.slices, strict=True))
+        start = np.concatenate([np.full(family.size, where.start) for family, where in families])
+        degree = np.concatenate([np.full(family.size, family.degree) for family, where in families])
+
+        def described(modes: IntArray) -> Modes:
+            return Modes(start[modes], modes - start[modes], degree[modes], self.basis.rank[modes])
+
+        return AxialElements(
+            described(rows),
+            described(columns),
+            self.direct[rows, columns],
+            self.extended[rows, columns],
+            _quarter_turns(self.basis.order),
+        )
+
+
+def _quarter_turns(order: int) -> FloatArray:
+    """Turns from z to y of the harmonics of degrees 0 … p, each in the leading corner of (2p + 1, 2p + 1)."""
+    turns = np.zeros((order + 1, 2 * order + 1, 2 * order + 1))
+    for degree in range(1, order + 1):
+        turns[degree, : 2 * degree + 1, : 2 * degree + 1] = quarter_turn(degree)
+    return turns
 
 
 def _family_coefficients(family: Family, other: Family) -> tuple[FloatArray, FloatArray]:
