@@ -7,7 +7,7 @@ import rheoclast as rc
 from rheoclast.stokes.automatic import Automatic
 from rheoclast.stokes.basis import MultipoleBasis
 from rheoclast.stokes.dense import DenseCholesky
-from rheoclast.stokes.fast_mobility import FastMobility
+from rheoclast.stokes.fast_mobility import fast_mobility
 from rheoclast.stokes.iterative import BlockConjugateGradients
 from rheoclast.stokes.mobility import Mobility
 
@@ -39,18 +39,32 @@ def contact_table(aggregate, order, solver):
     return rc.contact_response(aggregate, response, rc.Bonds(1, 0.8, 6e-3, 8e-3)), response
 
 
-@pytest.mark.parametrize("order", [1, 2])
-def test_compiled_sums_are_the_operator(order):
-    """Faxén's closed form, as compiled, against the pair blocks of the hierarchy: nothing but rounding."""
+@pytest.mark.parametrize("order", [1, 2, 3, 4])
+def test_fast_operator_is_the_mobility(order):
+    """Faxén's closed form as compiled, or blocks stored, against the sum over pair blocks: nothing but rounding."""
     mobility = Mobility(*CLUSTERS["polydisperse"], MultipoleBasis(order))
     tractions = np.random.default_rng(order).normal(size=(100, mobility.basis.size, 4))
     expected = mobility @ tractions
-    np.testing.assert_allclose(FastMobility(mobility)(tractions), expected, rtol=0, atol=1e-13 * np.abs(expected).max())
+    fast = fast_mobility(mobility, accuracy=1e-7)
+    np.testing.assert_allclose(fast @ tractions, expected, rtol=0, atol=1e-13 * np.abs(expected).max())
 
 
-@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("order", [2, 3, 4])
+def test_lower_order_is_the_leading_part(order):
+    """Nested: the lower order's operator is this one on its first modes."""
+    mobility = Mobility(*sticking_cluster(450, 7), MultipoleBasis(order))
+    lower = MultipoleBasis(order - 1).size
+    tractions = np.zeros((450, mobility.basis.size, 2))
+    tractions[:, :lower] = np.random.default_rng(order).normal(size=(450, lower, 2))
+    fast = fast_mobility(mobility, accuracy=1e-4)
+    expected = (fast @ tractions)[:, :lower]
+    found = fast.lowered() @ np.ascontiguousarray(tractions[:, :lower])
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-6 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("order", [1, 2, 3])
 def test_contact_loads_are_as_good_as_the_tolerance_says(aggregate, order):
-    """Forces within three tolerances of the largest force; moments within three of it times the radius of a sphere.
+    """Forces within five tolerances of the largest force; moments within five of it times the radius of a sphere.
 
     A straight chain is the exception: its moments are small remainders of large loads on the held chain, which cancel
     to one part in N². They are within two hundred tolerances.
@@ -61,8 +75,8 @@ def test_contact_loads_are_as_good_as_the_tolerance_says(aggregate, order):
         table, response = contact_table(aggregate, order, BlockConjugateGradients(tolerance))
         assert response.convergence.residual <= tolerance
         largest = np.abs(exact.force).max()
-        assert np.abs(table.force - exact.force).max() < 3 * tolerance * largest
-        assert np.abs(table.moment - exact.moment).max() < (200 if straight else 3) * tolerance * largest
+        assert np.abs(table.force - exact.force).max() < 5 * tolerance * largest
+        assert np.abs(table.moment - exact.moment).max() < (200 if straight else 5) * tolerance * largest
 
 
 def test_iterations_are_few(aggregate):
@@ -93,9 +107,6 @@ def test_automatic_choice():
 
 
 def test_refusals():
-    mobility = Mobility(*CLUSTERS["ball"], MultipoleBasis(3))
-    with pytest.raises(ValueError, match="expected order 1 or 2, got 3; use DenseCholesky"):
-        BlockConjugateGradients().solve(mobility, mobility.ambient_velocities())
     with pytest.raises(ValueError, match="tolerance: expected a positive number, got 0"):
         BlockConjugateGradients(tolerance=0)
 
@@ -110,7 +121,7 @@ def test_progress_tells_the_residual():
 
 def test_far_field_serves_large_clusters(monkeypatch):
     """The path of clusters too large for direct sums, on a small one: contact loads stay within the tolerance."""
-    monkeypatch.setattr("rheoclast.stokes.iterative.LARGEST_DIRECT", 100)
+    monkeypatch.setattr("rheoclast.stokes.fast_mobility.FEWEST_IN_OCTREE", 100)
     centers, radii = sticking_cluster(450, 7)
     spread = rc.Aggregate.touching(rc.Spheres(centers, radii))
     exact, _ = contact_table(spread, 2, DenseCholesky())

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import nullcontext
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -10,9 +9,9 @@ import numpy as np
 from scipy.linalg.blas import dsyrk, dtrsm
 from scipy.linalg.lapack import dpotrf
 from scipy.sparse import bsr_array, csr_array
-from threadpoolctl import ThreadpoolController, threadpool_limits
 
 from rheoclast._checks import FloatArray, IntArray
+from rheoclast._threads import one_blas_thread
 
 THREADED = 1500  # unknowns of a front from which a second thread pays
 STRIP = 128
@@ -57,7 +56,7 @@ class FrontalCholesky:
     def solve(self, rhs: FloatArray, /) -> FloatArray:
         """Solution (n, K) for right-hand sides (n, K)."""
         x = rhs[self.order]
-        with threadpool_limits(1, "blas"):
+        with one_blas_thread():
             for front in self.fronts:
                 x[front.own] = dtrsm(1.0, front.triangle, x[front.own], lower=1)
                 x[front.beyond] -= front.rectangle @ x[front.own]
@@ -91,10 +90,9 @@ def frontal_cholesky(matrix: bsr_array, part: IntArray) -> FrontalCholesky:
     permuted, part, size = _permuted(matrix, order), part[order], matrix.blocksize[0]
     bounds = np.flatnonzero(np.diff(part, prepend=0, append=0))
     arriving: dict[int, list[_Update]] = {}
-    threads = ThreadpoolController()
     fronts = []
     for start, stop in pairwise(bounds.tolist()):
-        front, update = _eliminated(permuted, start, stop, arriving.pop(int(part[start]), []), threads)
+        front, update = _eliminated(permuted, start, stop, arriving.pop(int(part[start]), []))
         fronts.append(front)
         if len(update.blocks):
             arriving.setdefault(int(part[update.blocks[0]]), []).append(update)
@@ -109,14 +107,12 @@ class _Update:
     matrix: FloatArray
 
 
-def _eliminated(
-    matrix: bsr_array, start: int, stop: int, arrived: list[_Update], threads: ThreadpoolController
-) -> tuple[Front, _Update]:
+def _eliminated(matrix: bsr_array, start: int, stop: int, arrived: list[_Update]) -> tuple[Front, _Update]:
     """The front of the block rows from start to stop, and its update of those beyond."""
     size = matrix.blocksize[0]
     beyond, corner, rectangle, update = _assembled(matrix, start, stop, arrived)
-    with threads.limit(limits=1, user_api="blas") if sum(rectangle.shape) < THREADED else nullcontext():
-        triangle = _cholesky(corner, threads)
+    with one_blas_thread(when=sum(rectangle.shape) < THREADED):
+        triangle = _cholesky(corner)
         if len(beyond):
             rectangle = dtrsm(1.0, triangle, rectangle, side=1, lower=1, trans_a=1, overwrite_b=1)
             update = dsyrk(-1.0, rectangle, beta=1.0, c=update, lower=1, overwrite_c=1)
@@ -174,19 +170,19 @@ def _as_blocks(matrix: FloatArray, size: int) -> FloatArray:
     return matrix.T.reshape(matrix.shape[1] // size, size, matrix.shape[0] // size, size).transpose(2, 3, 0, 1)
 
 
-def _cholesky(matrix: FloatArray, threads: ThreadpoolController) -> FloatArray:
+def _cholesky(matrix: FloatArray) -> FloatArray:
     """Lower triangular Cholesky factor; of the argument only the lower triangle counts, and it is used up."""
     if len(matrix) <= PANEL:
-        with threads.limit(limits=1, user_api="blas"):
+        with one_blas_thread():
             factor, info = dpotrf(matrix, lower=1, clean=1, overwrite_a=1)
         if info:
             raise ArithmeticError("the matrix is not positive definite to rounding")
         return factor
     half = len(matrix) // 2
     factor = np.zeros_like(matrix, order="F")
-    factor[:half, :half] = triangle = _cholesky(np.asfortranarray(matrix[:half, :half]), threads)
+    factor[:half, :half] = triangle = _cholesky(np.asfortranarray(matrix[:half, :half]))
     factor[half:, :half] = side = dtrsm(1.0, triangle, matrix[half:, :half], side=1, lower=1, trans_a=1)
-    factor[half:, half:] = _cholesky(dsyrk(-1.0, side, beta=1.0, c=matrix[half:, half:], lower=1), threads)
+    factor[half:, half:] = _cholesky(dsyrk(-1.0, side, beta=1.0, c=matrix[half:, half:], lower=1))
     return factor
 
 

@@ -8,7 +8,7 @@ from typing import final
 from rheoclast._checks import FloatArray
 from rheoclast.stokes.basis import MultipoleBasis
 from rheoclast.stokes.dense import DenseCholesky
-from rheoclast.stokes.iterative import HIGHEST_ORDER, BlockConjugateGradients
+from rheoclast.stokes.iterative import BlockConjugateGradients
 from rheoclast.stokes.mobility import Mobility, Progress
 from rheoclast.stokes.solver import Solution, Solver
 
@@ -38,4 +38,4 @@ class Automatic(Solver):
 
     def _chosen(self, count: int, basis: MultipoleBasis) -> Solver:
         few = count * basis.size < FEWEST_UNKNOWNS
-        return DenseCholesky() if few or basis.order > HIGHEST_ORDER else self.iterative
+        return DenseCholesky() if few else self.iterative

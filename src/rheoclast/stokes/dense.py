@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import time
-from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
-from typing import Any, final
+from typing import final
 
 from scipy.linalg import LinAlgError, cho_factor, solve_triangular
-from threadpoolctl import threadpool_limits
 
 from rheoclast._checks import FloatArray
+from rheoclast._threads import one_blas_thread
 from rheoclast.errors import GeometryError
 from rheoclast.stokes.basis import MultipoleBasis
 from rheoclast.stokes.mobility import PAIR_CHUNK_BYTES, Mobility, Progress
 from rheoclast.stokes.solver import Convergence, Solution, Solver
 
 LARGEST_THREADED_CHOLESKY = 15_000
+"""The OpenBLAS of NumPy's and SciPy's wheels crashes in a threaded Cholesky of n ≥ 16 000."""
 
 
 @final
@@ -43,7 +43,7 @@ class DenseCholesky(Solver):
         matrix = mobility.matrix(progress).reshape(modes * count, modes * count)
         if progress is not None:
             progress("factorization", 0.0)
-        with _safe_threads(len(matrix)):
+        with one_blas_thread(when=len(matrix) > LARGEST_THREADED_CHOLESKY):
             # The matrix is symmetric: its transpose is the same, and in the order that LAPACK overwrites.
             factor = _cholesky(matrix.T)
             right_side = velocities.transpose(1, 0, 2).reshape(modes * count, columns)
@@ -78,8 +78,3 @@ def _cholesky(matrix: FloatArray) -> FloatArray:
 def _backward(factor: FloatArray, forward: FloatArray, size: int) -> FloatArray:
     """Solution (size, K) of the leading part of the system, from the forward substitution of the whole."""
     return solve_triangular(factor[:size, :size], forward[:size], lower=True, trans="T", check_finite=False)
-
-
-def _safe_threads(size: int) -> AbstractContextManager[Any]:
-    """One BLAS thread where the OpenBLAS of NumPy's and SciPy's wheels crashes in a threaded Cholesky (n ≥ 16 000)."""
-    return threadpool_limits(1, "blas") if size > LARGEST_THREADED_CHOLESKY else nullcontext()

@@ -8,7 +8,7 @@ neighbouring leaves, are left to the caller.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -73,6 +73,11 @@ class FarField:
         """Bytes held, without the constant operators."""
         return self.coefficients.nbytes + sum(2 * pairs.targets.nbytes for pairs in self.interactions)
 
+    def lowered(self, basis: MultipoleBasis) -> FarField:
+        """The far field of a lower multipole order, whose modes are the first of this one's."""
+        by_sphere = self.coefficients.reshape(len(self.tree.order), -1, self.rank)
+        return replace(self, coefficients=by_sphere[:, : basis.size].reshape(-1, self.rank))
+
     def apply(self, tractions: FloatArray) -> FloatArray:
         """Velocities (N, M, K) of all spheres from the tractions (N, M, K) of the spheres far from each."""
         if not self.levels:
@@ -128,7 +133,8 @@ class FarField:
 
     def _leaves(self) -> list[tuple[int, slice]]:
         """Number of each leaf among the boxes, and the rows of its spheres' modes."""
-        ends = (self.tree.leaf_starts * self.operators.basis.size).tolist()
+        modes = len(self.coefficients) // len(self.tree.order)
+        ends = (self.tree.leaf_starts * modes).tolist()
         first = self.tree.boxes(self.tree.depth).start
         return [(first + leaf, slice(*ends[leaf : leaf + 2])) for leaf in range(len(ends) - 1)]
 

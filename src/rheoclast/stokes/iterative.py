@@ -4,26 +4,27 @@ from __future__ import annotations
 
 import math
 import time
-from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
-from typing import Any, final
+from typing import TYPE_CHECKING, final
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from rheoclast import _checks
 from rheoclast._checks import FloatArray
+from rheoclast._threads import one_blas_thread
 from rheoclast.stokes.basis import MultipoleBasis
+from rheoclast.stokes.conjugate_gradients import conjugate_gradients
 from rheoclast.stokes.mobility import Mobility, Progress
 from rheoclast.stokes.solver import Convergence, Solution, Solver
 
-HIGHEST_ORDER = 2
+if TYPE_CHECKING:
+    from rheoclast.stokes.block_sparse import BlockSparse
+    from rheoclast.stokes.fast_mobility import FastMobility
+
 REACH = 2.0
 """Length scales within which a sphere is conditioned on coarser ones."""
 TOLERANCE_OF_LOWER_ORDER = 3e-3
 """The order below only serves the error bar."""
-LARGEST_DIRECT = 5_000
-"""Spheres up to which all pairs are summed directly."""
 FAR_FIELD_SHARE = 10.0
 """Accuracy of the far field over the tolerance: it errs a tenth of its accuracy for the smooth flows that matter."""
 COEFFICIENTS_OF_A_BOX = 450
@@ -34,7 +35,7 @@ UNKNOWNS_FOR_THREADED_ALGEBRA = 100_000
 @final
 @dataclass(frozen=True)
 class BlockConjugateGradients(Solver):
-    """All right-hand sides at once, without the matrix; orders 1 and 2.
+    """All right-hand sides at once, without the matrix.
 
     Parameters
     ----------
@@ -58,59 +59,60 @@ class BlockConjugateGradients(Solver):
             If the memory that is free does not suffice.
         ArithmeticError
             If the iteration does not converge.
-        ValueError
-            For orders above 2.
         """
-        order = mobility.basis.order
-        if order > HIGHEST_ORDER:
-            raise ValueError(f"BlockConjugateGradients: expected order 1 or 2, got {order}; use DenseCholesky")
+        # Numba takes a second to import: only those who solve pay for it.
+        from rheoclast.stokes.fast_mobility import fast_mobility
+        from rheoclast.stokes.preconditioner import inverse_factor
+
         self.refuse_beyond_memory(mobility)
-        found = []
-        for each in range(max(1, order - 1), order + 1):
-            basis = MultipoleBasis(each)
-            tolerance = self.tolerance if each == order else max(self.tolerance, TOLERANCE_OF_LOWER_ORDER)
-            operator = Mobility(mobility.centers, mobility.radii, basis)
-            found.append(_solution(operator, velocities[:, : basis.size], tolerance, progress))
+        start = time.perf_counter()
+        with one_blas_thread(when=velocities.shape[0] * velocities.shape[1] < UNKNOWNS_FOR_THREADED_ALGEBRA):
+            factor = inverse_factor(mobility.centers, mobility.radii, mobility.basis, REACH)
+            operator = fast_mobility(mobility, min(max(FAR_FIELD_SHARE * self.tolerance, 1e-7), 1e-2))
+            found = [_solution(operator, factor, velocities, self.tolerance, start, progress)]
+            if mobility.basis.order > 1:
+                tolerance = max(self.tolerance, TOLERANCE_OF_LOWER_ORDER)
+                found.insert(0, _solution(operator.lowered(), factor, velocities, tolerance, start, progress))
         return found
 
     def memory(self, count: int, basis: MultipoleBasis) -> float:
         """Bytes of sixteen blocks of vectors, of the factor for a compact cluster and of the octree's coefficients."""
-        far_field = 4.0 * COEFFICIENTS_OF_A_BOX if count > LARGEST_DIRECT else 0.0
+        far_field = 4.0 * COEFFICIENTS_OF_A_BOX if count > 5000 else 0.0
         return count * basis.size * (8.0 * 16 * 11 + 4.0 * 25 * basis.size + far_field)
 
 
-def _solution(mobility: Mobility, velocities: FloatArray, tolerance: float, progress: Progress | None) -> Solution:
-    # Numba takes a second to import: only those who solve pay for it.
-    from rheoclast.stokes.conjugate_gradients import conjugate_gradients
-    from rheoclast.stokes.far_field import far_field
-    from rheoclast.stokes.fast_mobility import FastMobility
-    from rheoclast.stokes.preconditioner import inverse_factor
+def _solution(
+    operator: FastMobility,
+    factor: BlockSparse,
+    velocities: FloatArray,
+    tolerance: float,
+    start: float,
+    progress: Progress | None,
+) -> Solution:
+    """Solution for velocities (N, M, K), preconditioned by a factor of the inverse of this order or a higher one.
 
-    start = time.perf_counter()
-    count, modes, columns = velocities.shape
-    accuracy = min(max(FAR_FIELD_SHARE * tolerance, 1e-7), 1e-2)
-    name = f"conjugate gradients, order {mobility.basis.order}"
+    With P the choice of this order's modes among the factor's, conjugate gradients work on Uᵀ Pᵀ A P U y = Uᵀ Pᵀ v and
+    the tractions are P U y.
+    """
+    basis = operator.mobility.basis
+    count, all_modes, columns = velocities.shape
+    name = f"conjugate gradients, order {basis.order}"
+
+    def lower(vectors: FloatArray) -> FloatArray:
+        if basis.size < all_modes:
+            vectors = np.concatenate([vectors, np.zeros((count, all_modes - basis.size, columns))], axis=1)
+        return factor.transposed(vectors).reshape(count * all_modes, columns)
+
+    def upper(vectors: FloatArray) -> FloatArray:
+        return np.ascontiguousarray((factor @ vectors.reshape(count, all_modes, columns))[:, : basis.size])
 
     def report(residual: float) -> None:
         if progress is not None:
             progress(f"{name}, residual {residual:.0e}", min(1.0, math.log(residual) / math.log(tolerance)))
 
-    with _calm_threads(count * modes):
-        factor = inverse_factor(mobility.centers, mobility.radii, mobility.basis, REACH)
-        far = far_field(mobility.centers, mobility.radii, mobility.basis, accuracy) if count > LARGEST_DIRECT else None
-        apply = FastMobility(mobility, far)
-
-        def preconditioned(vectors: FloatArray) -> FloatArray:
-            image = factor.lower(apply(factor.upper(vectors.reshape(count, modes, columns))))
-            return image.reshape(count * modes, columns)
-
-        right_side = factor.lower(np.ascontiguousarray(velocities)).reshape(count * modes, columns)
-        solution, iterations, residual = conjugate_gradients(preconditioned, right_side, tolerance, progress=report)
-        tractions = factor.upper(solution.reshape(count, modes, columns))
+    right_side = lower(np.ascontiguousarray(velocities[:, : basis.size]))
+    solution, iterations, residual = conjugate_gradients(
+        lambda vectors: lower(operator @ upper(vectors)), right_side, tolerance, progress=report
+    )
     convergence = Convergence(iterations, residual, time.perf_counter() - start)
-    return Solution(tractions, mobility.basis.order, convergence)
-
-
-def _calm_threads(unknowns: int) -> AbstractContextManager[Any]:
-    """One BLAS thread for small problems, where starting threads costs more than the algebra."""
-    return threadpool_limits(1, "blas") if unknowns < UNKNOWNS_FOR_THREADED_ALGEBRA else nullcontext()
+    return Solution(upper(solution), basis.order, convergence)

@@ -129,6 +129,20 @@ class Octree:
         population = np.diff(self.leaf_starts)
         return int(population[leaves] @ population[others])
 
+    def near_point_pairs(self) -> tuple[IntArray, IntArray]:
+        """Points i > j of every unordered pair of points in neighbouring leaves."""
+        starts, neighbours = self.neighbours
+        leaves = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+        population = np.diff(self.leaf_starts)
+        width = population[neighbours]
+        sizes = population[leaves] * width
+        meeting = np.repeat(np.arange(len(leaves)), sizes)  # the pair of leaves of each pair of points
+        place = np.arange(len(meeting)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+        one = self.order[self.leaf_starts[leaves[meeting]] + place // width[meeting]]
+        other = self.order[self.leaf_starts[neighbours[meeting]] + place % width[meeting]]
+        once = one > other
+        return one[once], other[once]
+
     def far_pairs(self) -> int:
         """Number of ordered pairs of boxes that interact: children of neighbours less neighbours."""
         total = 0

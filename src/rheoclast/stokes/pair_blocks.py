@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rheoclast import _checks
-from rheoclast._checks import FloatArray, IntArray
+from rheoclast._checks import FloatArray
 from rheoclast.stokes.basis import Family, MultipoleBasis
 from rheoclast.stokes.harmonics import quarter_turn
 
@@ -71,23 +71,15 @@ class PairCoefficients:
     @cached_property
     def elements(self) -> AxialElements:
         """Those that differ from zero, as the compiled sums take them."""
-        from rheoclast.stokes.pair_kernels import AxialElements, Modes
+        from rheoclast.stokes.pair_kernels import AxialElements
 
-        rows, columns = np.nonzero(np.abs(self.direct) + np.abs(self.extended) > ROUNDING)
+        modes = np.array(np.nonzero(np.abs(self.direct) + np.abs(self.extended) > ROUNDING))
         families = list(zip(self.basis.families, self.basis.slices, strict=True))
-        start = np.concatenate([np.full(family.size, where.start) for family, where in families])
-        degree = np.concatenate([np.full(family.size, family.degree) for family, where in families])
-
-        def described(modes: IntArray) -> Modes:
-            return Modes(start[modes], modes - start[modes], degree[modes], self.basis.rank[modes])
-
-        return AxialElements(
-            described(rows),
-            described(columns),
-            self.direct[rows, columns],
-            self.extended[rows, columns],
-            _quarter_turns(self.basis.order),
-        )
+        starts = np.concatenate([np.full(family.size, where.start) for family, where in families])[modes]
+        degrees = np.concatenate([np.full(family.size, family.degree) for family, where in families])[modes]
+        direct, extended = self.direct[*modes], self.extended[*modes]
+        turns = _quarter_turns(self.basis.order)
+        return AxialElements(starts, modes - starts, degrees, self.basis.rank[modes], direct, extended, turns)
 
 
 def _quarter_turns(order: int) -> FloatArray:

@@ -17,25 +17,28 @@ from rheoclast._checks import FloatArray, IntArray
 LANES = 32
 
 
-class Modes(NamedTuple):
-    """One mode per element, (E,) each: the first mode of its family, its place there, the family's degree and rank."""
-
-    start: IntArray
-    place: IntArray
-    degree: IntArray
-    rank: IntArray
-
-
 class AxialElements(NamedTuple):
     """The E elements that differ from zero in the frame whose z axis runs from sphere j to sphere i.
 
-    Element e joins mode `rows` of sphere i to mode `columns` of sphere j. Its value is ρ_i^l ρ_j^l' / r · [direct +
-    extended · (ρ_i² / (2(2l + 3)) + ρ_j² / (2(2l' + 3)))], with ρ = a/r and ranks l and l'. The quarter turns
-    (p + 1, 2p + 1, 2p + 1) carry z to y in the harmonics of each degree.
+    Element e joins a mode of sphere i, whose data stand in row 0, to one of sphere j, in row 1. Its value is
+    ρ_i^l ρ_j^l' / r · [direct + extended · (ρ_i² / (2(2l + 3)) + ρ_j² / (2(2l' + 3)))], with ρ = a/r.
+
+    Attributes
+    ----------
+    starts, places
+        (2, E) first mode of the mode's family, and its place there.
+    degrees, ranks
+        (2, E) of the family.
+    direct, extended
+        (E,)
+    quarter_turns
+        (p + 1, 2p + 1, 2p + 1) turns that carry z to y in the harmonics of each degree, in the leading corners.
     """
 
-    rows: Modes
-    columns: Modes
+    starts: IntArray
+    places: IntArray
+    degrees: IntArray
+    ranks: IntArray
     direct: FloatArray
     extended: FloatArray
     quarter_turns: FloatArray
@@ -109,19 +112,19 @@ def _add_blocks(
     squares_i, squares_j = ratio_i * ratio_i, ratio_j * ratio_j
     value = np.empty(LANES)
     for e in range(elements.direct.size):
-        rank_i, rank_j = elements.rows.rank[e], elements.columns.rank[e]
+        rank_i, rank_j = elements.ranks[0, e], elements.ranks[1, e]
         direct, extended = elements.direct[e], elements.extended[e]
         share_i, share_j = extended / (4 * rank_i + 6), extended / (4 * rank_j + 6)
         for lane in range(LANES):
             size = direct + share_i * squares_i[lane] + share_j * squares_j[lane]
             value[lane] = powers_i[rank_i, lane] * powers_j[rank_j, lane] * size
-        degree_i, degree_j = elements.rows.degree[e], elements.columns.degree[e]
-        left, right = turns[degree_i, elements.rows.place[e]], turns[degree_j, elements.columns.place[e]]
+        degree_i, degree_j = elements.degrees[0, e], elements.degrees[1, e]
+        left, right = turns[degree_i, elements.places[0, e]], turns[degree_j, elements.places[1, e]]
         for m in range(2 * degree_i + 1):
-            line = out[elements.rows.start[e] + m]
+            line = out[elements.starts[0, e] + m]
             scaled = value * left[m]
             for n in range(2 * degree_j + 1):
-                column = elements.columns.start[e] + n
+                column = elements.starts[1, e] + n
                 for lane in range(LANES):
                     line[column, lane] += scaled[lane] * right[n, lane]
 

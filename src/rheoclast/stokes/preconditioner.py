@@ -7,57 +7,22 @@ J. Sci. Comput. 43 (2021) A2019).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numba import njit, prange
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
-from threadpoolctl import threadpool_limits
 
 from rheoclast._checks import FloatArray, IntArray
+from rheoclast._threads import one_blas_thread
 from rheoclast.stokes.basis import MultipoleBasis
+from rheoclast.stokes.block_sparse import BlockSparse
 from rheoclast.stokes.pair_blocks import PairCoefficients
 
 SPHERES_AT_A_TIME = 4096
 
 
-@dataclass(frozen=True, eq=False)
-class InverseFactor:
-    """U with A⁻¹ ≈ U Uᵀ, made by `inverse_factor`. Single precision suffices for a preconditioner.
-
-    Attributes
-    ----------
-    starts, members
-        Spheres on which each sphere's block column stands, (N + 1,) and (E,).
-    columns
-        The blocks (E, M, M) of U, column after column.
-    row_starts, row_entries, row_owners
-        The same row after row: which entries stand in the row of a sphere, and the sphere whose column each is in.
-    """
-
-    starts: IntArray
-    members: IntArray
-    columns: NDArray[np.float32]
-    row_starts: IntArray
-    row_entries: IntArray
-    row_owners: IntArray
-
-    def upper(self, vectors: FloatArray) -> FloatArray:
-        """U x of vectors (N, M, K)."""
-        result = np.zeros_like(vectors)
-        _by_rows(self.row_starts, self.row_entries, self.row_owners, self.columns, vectors, result)
-        return result
-
-    def lower(self, vectors: FloatArray) -> FloatArray:
-        """Uᵀ x of vectors (N, M, K)."""
-        result = np.zeros_like(vectors)
-        _by_columns(self.starts, self.members, self.columns, vectors, result)
-        return result
-
-
-def inverse_factor(centers: FloatArray, radii: FloatArray, basis: MultipoleBasis, reach: float) -> InverseFactor:
-    """Factor of the inverse mobility.
+def inverse_factor(centers: FloatArray, radii: FloatArray, basis: MultipoleBasis, reach: float) -> BlockSparse:
+    """The factor U, in single precision, which suffices for a preconditioner.
 
     Parameters
     ----------
@@ -74,47 +39,9 @@ def inverse_factor(centers: FloatArray, radii: FloatArray, basis: MultipoleBasis
     for first in range(0, count, SPHERES_AT_A_TIME):
         part = starts[first : first + SPHERES_AT_A_TIME + 1]
         local, blocks = _pair_blocks(centers, radii, coefficients, part, members)
-        with threadpool_limits(1, "blas"):
+        with one_blas_thread():
             _block_columns(part, members, radii, basis.self_mobility, *local, blocks, columns)
-    entries = np.argsort(members, kind="stable")
-    row_starts = np.concatenate([[0], np.cumsum(np.bincount(members, minlength=count))])
-    owners = np.repeat(np.arange(count), np.diff(starts))
-    return InverseFactor(starts, members, columns, row_starts, entries, owners[entries])
-
-
-@njit(parallel=True, fastmath=True, cache=True)
-def _by_rows(
-    starts: IntArray,
-    entries: IntArray,
-    owners: IntArray,
-    columns: NDArray[np.float32],
-    vectors: FloatArray,
-    result: FloatArray,
-) -> None:
-    for row in prange(starts.size - 1):
-        for place in range(starts[row], starts[row + 1]):
-            block, vector = columns[entries[place]], vectors[owners[place]]
-            for m in range(block.shape[0]):
-                for n in range(block.shape[1]):
-                    for k in range(vector.shape[1]):
-                        result[row, m, k] += block[m, n] * vector[n, k]
-
-
-@njit(parallel=True, fastmath=True, cache=True)
-def _by_columns(
-    starts: IntArray,
-    members: IntArray,
-    columns: NDArray[np.float32],
-    vectors: FloatArray,
-    result: FloatArray,
-) -> None:
-    for column in prange(starts.size - 1):
-        for entry in range(starts[column], starts[column + 1]):
-            block, vector = columns[entry], vectors[members[entry]]
-            for n in range(block.shape[0]):
-                for m in range(block.shape[1]):
-                    for k in range(vector.shape[1]):
-                        result[column, m, k] += block[n, m] * vector[n, k]
+    return BlockSparse(starts, members, columns)
 
 
 @njit(cache=True, fastmath=True)
