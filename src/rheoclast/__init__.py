@@ -5,7 +5,23 @@ __version__ = "0.1.0"
 # isort: off
 from rheoclast.particles.spheres import Spheres
 from rheoclast.particles.aggregate import Aggregate
-from rheoclast.particles.morphology import coordination_numbers, radius_of_gyration
+from rheoclast.particles.morphology import (
+    anisotropy,
+    coordination_distribution,
+    coordination_numbers,
+    depth,
+    enclosing_porosity,
+    enclosing_radius,
+    enclosing_sphere,
+    gyration_tensor,
+    loops,
+    mean_coordination,
+    porosity,
+    radius_of_gyration,
+    relative_shape_anisotropy,
+)
+from rheoclast.particles.fractal import FractalLaw, PairCorrelationDimension, fractal_law, pair_correlation_dimension
+from rheoclast import generation
 from rheoclast.io import read, read_spheres, write, write_table
 
 from rheoclast.flows import LinearFlow, biaxial_extension, planar_extension, simple_shear, uniaxial_extension
@@ -36,8 +52,24 @@ from rheoclast.errors import FileFormatError, GeometryError, UnitWarning
 __all__ = [
     "Spheres",
     "Aggregate",
+    "anisotropy",
+    "coordination_distribution",
     "coordination_numbers",
+    "depth",
+    "enclosing_porosity",
+    "enclosing_radius",
+    "enclosing_sphere",
+    "gyration_tensor",
+    "loops",
+    "mean_coordination",
+    "porosity",
     "radius_of_gyration",
+    "relative_shape_anisotropy",
+    "FractalLaw",
+    "PairCorrelationDimension",
+    "fractal_law",
+    "pair_correlation_dimension",
+    "generation",
     "read",
     "read_spheres",
     "write",

@@ -59,3 +59,17 @@ def test_convergence(load):
         assert all(error < 0 for error in errors.values())
         assert 5 < script.exponent(errors) < 9
     assert len({np.sign(value["tension"] - exact["tension"]) for value in values.values()}) == 2
+
+
+def test_fractal_dimensions(load):
+    """Reduced: few seeds and up to 800 spheres, so the bounds are twice those of the whole."""
+    script = load("fractal_dimensions", "fractal_dimensions")
+    ensembles = {
+        name: script.ensemble(family, (30, 150, 800), 12)
+        for name, (family, _) in script.FAMILIES.items()
+        if "particle" not in name
+    }
+    for row in script.rows(ensembles):
+        published = script.FAMILIES[row["family"]][1]
+        assert abs(row["dimension"] - published.dimension) < 2 * published.tolerance, row["family"]
+    assert len(script.draw(ensembles).axes) == 1

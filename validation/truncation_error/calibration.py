@@ -13,6 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import rheoclast as rc
+from rheoclast.stokes.dense import DenseCholesky
 
 HERE = Path(__file__).parent
 MATERIAL = rc.MATERIALS["polystyrene"]
@@ -44,7 +45,7 @@ def judged(name: str, aggregate: rc.Aggregate) -> list[dict[str, float | str]]:
     """
     aggregate = rc.Aggregate(aggregate.spheres.scaled(RADIUS), aggregate.pairs)
     bonds = rc.jkr_bonds(aggregate, MATERIAL)
-    model = rc.StokesianDynamics(reference_order(len(aggregate)))
+    model = rc.StokesianDynamics(reference_order(len(aggregate)), solver=DenseCholesky())
     exact = rc.contact_response(aggregate, rc.rigid_response(aggregate.spheres, model, viscosity=1e-3), bonds)
     rows, table = [], exact
     while table is not None:

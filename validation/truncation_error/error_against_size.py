@@ -14,6 +14,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 import rheoclast as rc
+from rheoclast.stokes.dense import DenseCholesky
 
 HERE = Path(__file__).parent
 MATERIAL = rc.MATERIALS["polystyrene"]
@@ -42,7 +43,7 @@ def errors(aggregate: rc.Aggregate) -> list[dict[str, float | str]]:
     spheres = aggregate.spheres.scaled(RADIUS)
     aggregate = rc.Aggregate(spheres, aggregate.pairs)
     bonds = rc.jkr_bonds(aggregate, MATERIAL)
-    exact = _table(aggregate, rc.StokesianDynamics(reference_order(len(aggregate))), bonds)
+    exact = _table(aggregate, rc.StokesianDynamics(reference_order(len(aggregate)), solver=DenseCholesky()), bonds)
     tables = {name: _table(aggregate, model, bonds) for name, model in MODELS.items()}
     each = exact
     while each is not None:

@@ -17,6 +17,7 @@ from rheoclast import io as files
 from rheoclast.cli import options, results
 from rheoclast.cli.analysis import Analysis, analyse
 from rheoclast.cli.console import plain_speech, progress_bar, screen, tell_memory
+from rheoclast.cli.generation import generate
 from rheoclast.cli.presentation import show_shape, show_stress
 from rheoclast.cli.tables import shape_summary, stress_summary
 from rheoclast.cli.units import Units
@@ -175,6 +176,9 @@ def info(
         typer.echo(_json({"rheoclast": rheoclast.__version__, "file": str(file), **summary, "units": {"length": name}}))
     else:
         show_shape(str(file), summary, name)
+
+
+app.add_typer(generate, name="generate")
 
 
 @app.command()

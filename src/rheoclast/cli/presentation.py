@@ -61,6 +61,13 @@ def _shape_rows(table: Table, summary: dict[str, Any], length: str) -> None:
         radius += f" (from {smallest} to {largest})"
     table.add_row("mean sphere radius", radius)
     table.add_row("radius of gyration", _quoted(summary["radius_of_gyration"], length))
+    table.add_row("enclosing radius", _quoted(summary["enclosing_radius"], length))
+    if summary["fractal_dimension"] is not None:
+        low, high = summary["fractal_dimension"]["interval"]
+        value = summary["fractal_dimension"]["value"]
+        table.add_row("fractal dimension", f"{value:.2f} ({low:.2f} to {high:.2f}, from pair distances)")
+    shape = f"{summary['porosity']:.3g}, relative shape anisotropy {summary['relative_shape_anisotropy']:.2g}"
+    table.add_row("porosity", shape)
     if "hydrodynamic_radius" in summary:
         table.add_row("hydrodynamic radius", _quoted(summary["hydrodynamic_radius"], length))
     if "intrinsic_viscosity" in summary:

@@ -12,7 +12,15 @@ from rheoclast.cli.analysis import Analysis
 from rheoclast.cli.units import Units
 from rheoclast.mechanics.criteria import load_ratios
 from rheoclast.particles.aggregate import Aggregate
-from rheoclast.particles.morphology import coordination_numbers, depth, radius_of_gyration
+from rheoclast.particles.fractal import pair_correlation_dimension
+from rheoclast.particles.morphology import (
+    coordination_numbers,
+    depth,
+    enclosing_radius,
+    porosity,
+    radius_of_gyration,
+    relative_shape_anisotropy,
+)
 
 Columns = dict[str, FloatArray | IntArray]
 
@@ -95,9 +103,22 @@ def shape_summary(aggregate: Aggregate, length: float = 1.0) -> dict[str, Any]:
         "smallest_radius": float(radii.min()) / length,
         "largest_radius": float(radii.max()) / length,
         "radius_of_gyration": radius_of_gyration(aggregate.spheres) / length,
+        "enclosing_radius": enclosing_radius(aggregate.spheres) / length,
+        "relative_shape_anisotropy": relative_shape_anisotropy(aggregate.spheres),
+        "porosity": porosity(aggregate.spheres),
+        "fractal_dimension": _fractal_dimension(aggregate),
         "mean_coordination": float(coordination.mean()),
         "coordination_counts": {str(k): int(n) for k, n in enumerate(np.bincount(coordination)) if n},
     }
+
+
+def _fractal_dimension(aggregate: Aggregate) -> dict[str, Any] | None:
+    """From the pair correlation, with its interval; none for an aggregate too small to have one."""
+    try:
+        found = pair_correlation_dimension(aggregate)
+    except ValueError:
+        return None
+    return {"value": found.dimension, "interval": list(found.interval)}
 
 
 def stress_summary(analysis: Analysis, units: Units) -> dict[str, Any]:

@@ -15,7 +15,7 @@ SINGULAR = 1e-12
 
 def total_resistance(centers: FloatArray, loads: FloatArray) -> FloatArray:
     """Total force, torque and stresslet about the reference point in the elementary flows, (11, 11)."""
-    total = np.einsum("nkc,ncl->kl", elementary_velocities(centers), loads[:, :3])
+    total = np.tensordot(elementary_velocities(centers), loads[:, :3], axes=((0, 2), (0, 1)))
     total[3:] += loads[:, 3:].sum(axis=0)
     return total
 
@@ -44,6 +44,7 @@ def strain_motion(resistance: FloatArray) -> FloatArray:
 def free_loads(centers: FloatArray, loads: FloatArray) -> FloatArray:
     """Force and torque on every sphere of the free aggregate, per strain component, (N, 6, 5)."""
     resistance = total_resistance(centers, loads)
-    free = loads[:, :6, 6:] - loads[:, :6, :6] @ strain_motion(resistance)
+    rigid, motion = loads[:, :6, :6], mobility(resistance)
+    free = loads[:, :6, 6:] - rigid @ (motion @ resistance[:6, 6:])
     # What is left is a difference of much larger loads: its rounding is moved away in the same manner.
-    return free - loads[:, :6, :6] @ (mobility(resistance) @ total_load(centers, free))
+    return free - rigid @ (motion @ total_load(centers, free))

@@ -97,7 +97,7 @@ def replacing(path: str | os.PathLike[str], overwrite: bool = False) -> Iterator
     FileNotFoundError
         If its folder does not exist.
     """
-    target = _target(path, overwrite)
+    target = writable(path, overwrite)
     temporary = target.with_name(f".{target.stem}-{secrets.token_hex(4)}{target.suffix}")
     try:
         yield temporary
@@ -108,8 +108,14 @@ def replacing(path: str | os.PathLike[str], overwrite: bool = False) -> Iterator
         temporary.unlink(missing_ok=True)
 
 
-def _target(path: str | os.PathLike[str], overwrite: bool) -> Path:
-    """Where `path` leads, links followed, once it is clear that a file may be put there."""
+def writable(path: str | os.PathLike[str], overwrite: bool) -> Path:
+    """Where `path` leads, links followed, once it is clear that a file may be put there.
+
+    Raises
+    ------
+    FileExistsError, FileNotFoundError
+        As `replacing`.
+    """
     target = Path(os.path.realpath(path))
     if not target.parent.is_dir():
         raise FileNotFoundError(f"{path}: the folder {target.parent} does not exist; create it first")

@@ -12,13 +12,14 @@ from rheoclast.stokes.iterative import BlockConjugateGradients
 from rheoclast.stokes.mobility import Mobility, Progress
 from rheoclast.stokes.solver import Solution, Solver
 
-FEWEST_UNKNOWNS = 2_000
+FEWEST_UNKNOWNS = (1_000, 3_000)
+"""From which on the iterative solution is faster, for order 2 and for high orders."""
 
 
 @final
 @dataclass(frozen=True)
 class Automatic(Solver):
-    """Dense Cholesky for few unknowns and for orders above 2, else block conjugate gradients.
+    """Dense Cholesky for few unknowns, else block conjugate gradients.
 
     Parameters
     ----------
@@ -37,5 +38,5 @@ class Automatic(Solver):
         return self._chosen(count, basis).memory(count, basis)
 
     def _chosen(self, count: int, basis: MultipoleBasis) -> Solver:
-        few = count * basis.size < FEWEST_UNKNOWNS
+        few = count * basis.size < FEWEST_UNKNOWNS[basis.order > 2]
         return DenseCholesky() if few else self.iterative

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
 
 from rheoclast._checks import FloatArray
 
@@ -58,9 +57,9 @@ def conjugate_gradients(
     worst = 1.0
     for iteration in range(1, most_iterations + 1):
         image = operator(direction)
-        step = cho_factor(direction.T @ image)
-        solution += direction @ cho_solve(step, size)
-        residual, change = np.linalg.qr(residual - image @ cho_solve(step, np.eye(len(size))))
+        step = np.linalg.inv(direction.T @ image)
+        solution += direction @ (step @ size)
+        residual, change = np.linalg.qr(residual - image @ step)
         direction = residual + direction @ change.T
         size = change @ size
         worst = float(np.linalg.norm(size, axis=0).max())

@@ -12,11 +12,11 @@ from rheoclast._checks import FloatArray
 from rheoclast._threads import one_blas_thread
 from rheoclast.errors import GeometryError
 from rheoclast.stokes.basis import MultipoleBasis
-from rheoclast.stokes.mobility import PAIR_CHUNK_BYTES, Mobility, Progress
-from rheoclast.stokes.solver import Convergence, Solution, Solver
+from rheoclast.stokes.mobility import Mobility, Progress
+from rheoclast.stokes.solver import Convergence, Solution, Solver, refuse_beyond_memory
 
+FEWEST_FOR_THREADS = 2_000
 LARGEST_THREADED_CHOLESKY = 15_000
-"""The OpenBLAS of NumPy's and SciPy's wheels crashes in a threaded Cholesky of n ≥ 16 000."""
 
 
 @final
@@ -37,13 +37,13 @@ class DenseCholesky(Solver):
         GeometryError
             If the mobility is not positive definite, which happens when spheres overlap.
         """
-        self.refuse_beyond_memory(mobility)
         start = time.perf_counter()
         count, modes, columns = velocities.shape
+        refuse_beyond_memory(self.memory(count, mobility.basis), count, mobility.basis.order)
         matrix = mobility.matrix(progress).reshape(modes * count, modes * count)
         if progress is not None:
             progress("factorization", 0.0)
-        with one_blas_thread(when=len(matrix) > LARGEST_THREADED_CHOLESKY):
+        with one_blas_thread(when=not threads_serve(len(matrix))):
             # The matrix is symmetric: its transpose is the same, and in the order that LAPACK overwrites.
             factor = _cholesky(matrix.T)
             right_side = velocities.transpose(1, 0, 2).reshape(modes * count, columns)
@@ -61,7 +61,16 @@ class DenseCholesky(Solver):
     def memory(self, count: int, basis: MultipoleBasis) -> float:
         """Bytes of the matrix, and of the copy of its leading part that the next lower order takes."""
         lower = MultipoleBasis(basis.order - 1).size if basis.order > 1 else 0
-        return 8.0 * count**2 * (basis.size**2 + lower**2) + PAIR_CHUNK_BYTES * 4
+        return 8.0 * count**2 * (basis.size**2 + lower**2)
+
+
+def threads_serve(size: int) -> bool:
+    """Whether a Cholesky factorization of this size may use several threads.
+
+    Small ones gain little, and lose much where a thread is late on a busy machine. In large ones, n ≥ 16 000, the
+    OpenBLAS of NumPy's and SciPy's wheels crashes.
+    """
+    return FEWEST_FOR_THREADS <= size <= LARGEST_THREADED_CHOLESKY
 
 
 def _cholesky(matrix: FloatArray) -> FloatArray:

@@ -8,16 +8,19 @@ neighbouring leaves, are left to the caller.
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
+from numba import get_num_threads
 from numpy.typing import NDArray
 
 from rheoclast._checks import FloatArray
 from rheoclast.stokes.basis import MultipoleBasis
-from rheoclast.stokes.interpolation import BoxOperators, Precision, box_operators
+from rheoclast.stokes.interpolation import BoxOperators, Offset, Precision, box_operators
+from rheoclast.stokes.near_field import pair_cost
 from rheoclast.stokes.octree import Octree, Pairs, octree
 
 INTERPOLATION_ERROR = 1.0
@@ -28,8 +31,7 @@ SINGLE_PRECISION = (
 )
 Floats = NDArray[np.floating[Any]]
 
-LEAF_SIDES = (4, 6, 8, 12, 16)  # in largest radii; few, because the operators of each are made once and kept
-NEAR_COST = 4.0  # time of a near pair's floating-point operations over that of a matrix product's
+LEAF_SIDES = (6, 8, 12, 16, 24)  # in largest radii; few, because the operators of each are made once and kept
 SPHERE_PIECE = 2048  # spheres whose coefficients are made at a time
 BOX_PIECE = 128  # pairs of boxes at a time, so that what is gathered stays in the cache
 
@@ -96,9 +98,8 @@ class FarField:
     @cached_property
     def _factors(self) -> list[tuple[Floats, Floats]]:
         """Factors (R, R_t) of the operator for every offset of `interactions`."""
-        factors = [self.operators.factors(pairs.offset) for pairs in self.interactions]
         dtype = self.coefficients.dtype
-        return [(target.astype(dtype), source.astype(dtype)) for target, source in factors]
+        return [_factors(self.operators, pairs.offset, dtype) for pairs in self.interactions]
 
     def _upward(self, tractions: Floats) -> Floats:
         """Coefficients (B, K, R) of all boxes from tractions (N M, K)."""
@@ -111,13 +112,15 @@ class FarField:
         return coefficients
 
     def _across(self, sources: Floats) -> Floats:
-        """Coefficients (B, K, R) of the velocities in all boxes, raised by the boxes that they interact with."""
-        targets = np.zeros_like(sources)
-        for pairs, (target, source) in zip(self.interactions, self._factors, strict=True):
-            for start in range(0, len(pairs.targets), BOX_PIECE):
-                ones, others = (side[start : start + BOX_PIECE] for side in (pairs.targets, pairs.sources))
-                targets[ones] += _times(_times(sources[others], source), target.T)
-                targets[others] += _times(_times(sources[ones], target), source.T)
+        """Coefficients (B, K, R) of the velocities in all boxes, raised by the boxes that they interact with.
+
+        Each thread takes its share of the offsets: matrices of this size gain nothing from threads of their own.
+        """
+        work = list(zip(self.interactions, self._factors, strict=True))
+        threads = get_num_threads()
+        with ThreadPoolExecutor(threads) as pool:
+            parts = list(pool.map(lambda share: _raised(sources, work[share::threads]), range(threads)))
+        targets = sum(parts[1:], start=parts[0])
         targets /= (8 * np.pi * self.tree.box_sides[:, None, None]).astype(targets.dtype)
         return targets
 
@@ -165,6 +168,13 @@ def far_field(
     return FarField(tree, operators, _coefficients(tree, operators, centers, radii, dtype), interactions)
 
 
+@cache
+def _factors(operators: BoxOperators, offset: Offset, dtype: np.dtype[np.floating[Any]]) -> tuple[Floats, Floats]:
+    """Kept with the operators: for small clusters they take as long to make as several iterations."""
+    target, source = operators.factors(offset)
+    return target.astype(dtype), source.astype(dtype)
+
+
 def _precision(accuracy: float, sides_per_radius: float) -> Precision:
     """Nodes and truncation that reach an accuracy.
 
@@ -185,8 +195,7 @@ def _fastest(centers: FloatArray, largest: float, basis: MultipoleBasis, accurac
 
     def cost(tree: Octree) -> float:
         rank = (3.1 * digits - 0.5) ** 2 * (1 + 2.2 * largest / tree.side)  # fitted to the ranks found
-        across = tree.far_pairs() * 0.4 * rank**2
-        return NEAR_COST * tree.near_pairs() * basis.size**2 + across
+        return tree.near_pairs() * pair_cost(basis) + tree.far_pairs() * 0.6 * rank**2
 
     return min(trees, key=cost)
 
@@ -202,6 +211,17 @@ def _coefficients(
         piece = slice(start, start + SPHERE_PIECE)
         coefficients[piece] = operators.coefficients(places[piece], sizes[piece])
     return coefficients.reshape(-1, operators.rank)
+
+
+def _raised(sources: Floats, work: list[tuple[Pairs, tuple[Floats, Floats]]]) -> Floats:
+    """Coefficients (B, K, R) raised by sources (B, K, R) through some of the interactions, both ways."""
+    targets = np.zeros_like(sources)
+    for pairs, (target, source) in work:
+        for start in range(0, len(pairs.targets), BOX_PIECE):
+            ones, others = (side[start : start + BOX_PIECE] for side in (pairs.targets, pairs.sources))
+            targets[ones] += _times(_times(sources[others], source), target.T)
+            targets[others] += _times(_times(sources[ones], target), source.T)
+    return targets
 
 
 def _times(rows: Floats, matrix: Floats) -> Floats:

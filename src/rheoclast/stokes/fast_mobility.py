@@ -10,7 +10,7 @@ from rheoclast._checks import FloatArray
 from rheoclast.stokes.basis import MultipoleBasis
 from rheoclast.stokes.far_field import SINGLE_PRECISION, FarField, far_field
 from rheoclast.stokes.mobility import Mobility
-from rheoclast.stokes.near_field import NearField, near_field
+from rheoclast.stokes.near_field import HIGHEST_CLOSED_ORDER, NearField, near_field
 
 FEWEST_IN_OCTREE = 3_000
 """Spheres from which on the octree pays at orders 1 and 2, whose direct sums are fast."""
@@ -30,11 +30,14 @@ class FastMobility:
         Sum over near pairs.
     far
         Sum over the others; none where all pairs are near.
+    accuracy
+        Of the far field.
     """
 
     mobility: Mobility
     near: NearField
     far: FarField | None
+    accuracy: float
 
     def __matmul__(self, tractions: FloatArray) -> FloatArray:
         """Velocities (N, M, K) from tractions (N, M, K)."""
@@ -46,14 +49,19 @@ class FastMobility:
     def lowered(self) -> FastMobility:
         """The operator of the next lower order, which acts on the first modes of this one."""
         mobility, basis = self.mobility, MultipoleBasis(self.mobility.basis.order - 1)
-        far = None if self.far is None else self.far.lowered(basis)
-        return FastMobility(Mobility(mobility.centers, mobility.radii, basis), self.near.lowered(basis), far)
+        lower = Mobility(mobility.centers, mobility.radii, basis)
+        return _with_far_field(lower, None if self.far is None else self.far.lowered(basis), self.accuracy)
 
 
 def fast_mobility(mobility: Mobility, accuracy: float) -> FastMobility:
     """The operator of any order, its far field to an accuracy as `far_field` defines it."""
+    fewest = FEWEST_IN_OCTREE if mobility.basis.order <= HIGHEST_CLOSED_ORDER else FEWEST_IN_OCTREE_OF_BLOCKS
     spheres = mobility.centers, mobility.radii, mobility.basis
-    fewest = FEWEST_IN_OCTREE if mobility.basis.order <= 2 else FEWEST_IN_OCTREE_OF_BLOCKS
-    far = far_field(*spheres, accuracy) if len(mobility.radii) >= fewest else None
+    return _with_far_field(mobility, far_field(*spheres, accuracy) if len(mobility.radii) >= fewest else None, accuracy)
+
+
+def _with_far_field(mobility: Mobility, far: FarField | None, accuracy: float) -> FastMobility:
     dtype = np.float32 if accuracy >= SINGLE_PRECISION else np.float64
-    return FastMobility(mobility, near_field(*spheres, None if far is None else far.tree, dtype), far)
+    tree = None if far is None else far.tree
+    near = near_field(mobility.centers, mobility.radii, mobility.basis, tree, dtype)
+    return FastMobility(mobility, near, far, accuracy)

@@ -15,21 +15,33 @@ from rheoclast._threads import one_blas_thread
 from rheoclast.stokes.basis import MultipoleBasis
 from rheoclast.stokes.conjugate_gradients import conjugate_gradients
 from rheoclast.stokes.mobility import Mobility, Progress
-from rheoclast.stokes.solver import Convergence, Solution, Solver
+from rheoclast.stokes.solver import Convergence, Solution, Solver, refuse_beyond_memory
 
 if TYPE_CHECKING:
-    from rheoclast.stokes.block_sparse import BlockSparse
+    from rheoclast.stokes.block_rows import BlockRows
     from rheoclast.stokes.fast_mobility import FastMobility
 
-REACH = 2.0
-"""Length scales within which a sphere is conditioned on coarser ones."""
-TOLERANCE_OF_LOWER_ORDER = 3e-3
-"""The order below only serves the error bar."""
-FAR_FIELD_SHARE = 10.0
-"""Accuracy of the far field over the tolerance: it errs a tenth of its accuracy for the smooth flows that matter."""
+REACHES = (2.0, 3.0)
+"""Length scales within which a sphere is conditioned on coarser ones, up to a thousand spheres and from 10⁵ on.
+
+At a fixed reach the number of iterations grows slowly with that of the spheres, and each costs more.
+"""
+TOLERANCE_OF_ORDER_ONE = 3e-3
+"""Tolerance of order 1, which only serves the error bar of order 2: a few per cent of the change between them.
+
+Changes to higher orders are smaller, about as the inverse fourth power of the order.
+"""
+FAR_FIELD_SHARE = 2.0
+"""Accuracy of the far field over the tolerance: loads err a third of it."""
+VECTORS = 16 * 11
+"""Blocks of eleven vectors that are held at a time."""
+CONDITIONING_SPHERES = 25
+NEAR_SPHERES = 300
+"""Spheres in neighbouring leaves, and fewest for which there is an octree."""
 COEFFICIENTS_OF_A_BOX = 450
 """In single precision, at the accuracy that the default tolerance asks for."""
-UNKNOWNS_FOR_THREADED_ALGEBRA = 100_000
+HIGHEST_CLOSED_ORDER = 2
+"""Whose blocks are not stored."""
 
 
 @final
@@ -45,13 +57,13 @@ class BlockConjugateGradients(Solver):
         largest; moments in long straight chains to some forty times it (see `tests/agreement/test_iterative.py`).
     """
 
-    tolerance: float = 1e-6
+    tolerance: float = 1e-5
 
     def __post_init__(self) -> None:
         _checks.positive("tolerance", self.tolerance)
 
     def solve(self, mobility: Mobility, velocities: FloatArray, progress: Progress | None = None) -> list[Solution]:
-        """Solutions of the order asked for and, roughly, the one below.
+        """Solutions of the order asked for and, roughly, of the one or two below that its error bar takes.
 
         Raises
         ------
@@ -64,26 +76,42 @@ class BlockConjugateGradients(Solver):
         from rheoclast.stokes.fast_mobility import fast_mobility
         from rheoclast.stokes.preconditioner import inverse_factor
 
-        self.refuse_beyond_memory(mobility)
         start = time.perf_counter()
-        with one_blas_thread(when=velocities.shape[0] * velocities.shape[1] < UNKNOWNS_FOR_THREADED_ALGEBRA):
-            factor = inverse_factor(mobility.centers, mobility.radii, mobility.basis, REACH)
-            operator = fast_mobility(mobility, min(max(FAR_FIELD_SHARE * self.tolerance, 1e-7), 1e-2))
-            found = [_solution(operator, factor, velocities, self.tolerance, start, progress)]
-            if mobility.basis.order > 1:
-                tolerance = max(self.tolerance, TOLERANCE_OF_LOWER_ORDER)
-                found.insert(0, _solution(operator.lowered(), factor, velocities, tolerance, start, progress))
-        return found
+        count, order = len(mobility.radii), mobility.basis.order
+        refuse_beyond_memory(self.memory(count, mobility.basis), count, order)
+        operator = fast_mobility(mobility, min(max(FAR_FIELD_SHARE * self.tolerance, 1e-7), 1e-2))
+        with one_blas_thread():  # its threads would wait in the way of those of the compiled sums
+            factors = inverse_factor(mobility.centers, mobility.radii, mobility.basis, _reach(count))
+            found = [_solution(operator, factors, velocities, self.tolerance, start, progress)]
+            rough = max(self.tolerance, TOLERANCE_OF_ORDER_ONE * (2 / max(order, 2)) ** 4)
+            for _ in range(_lower_orders(order)):
+                operator = operator.lowered()
+                found.append(_solution(operator, factors, velocities, rough, time.perf_counter(), progress))
+        return found[::-1]
 
     def memory(self, count: int, basis: MultipoleBasis) -> float:
-        """Bytes of sixteen blocks of vectors, of the factor for a compact cluster and of the octree's coefficients."""
-        far_field = 4.0 * COEFFICIENTS_OF_A_BOX if count > 5000 else 0.0
-        return count * basis.size * (8.0 * 16 * 11 + 4.0 * 25 * basis.size + far_field)
+        """Bytes of the vectors, of the factor and, where they are needed, of stored blocks and the octree.
+
+        An estimate for a compact cluster; blocks that turn out not to fit are refused before they are stored.
+        """
+        near = min(count, NEAR_SPHERES) if basis.order > HIGHEST_CLOSED_ORDER else 0
+        blocks = (2 * CONDITIONING_SPHERES + near) * basis.size
+        far_field = COEFFICIENTS_OF_A_BOX if count > NEAR_SPHERES else 0
+        return count * basis.size * (8.0 * VECTORS + 4.0 * blocks + 4.0 * far_field)
+
+
+def _lower_orders(order: int) -> int:
+    """How many orders below the error bar of an order compares."""
+    return min(order - 1, 1 if order == 2 else 2)
+
+
+def _reach(count: int) -> float:
+    return float(np.interp(np.log10(count), (3, 5), REACHES))
 
 
 def _solution(
     operator: FastMobility,
-    factor: BlockSparse,
+    factors: tuple[BlockRows, BlockRows],
     velocities: FloatArray,
     tolerance: float,
     start: float,
@@ -95,13 +123,14 @@ def _solution(
     the tractions are P U y.
     """
     basis = operator.mobility.basis
+    factor, transposed = factors
     count, all_modes, columns = velocities.shape
     name = f"conjugate gradients, order {basis.order}"
 
     def lower(vectors: FloatArray) -> FloatArray:
         if basis.size < all_modes:
             vectors = np.concatenate([vectors, np.zeros((count, all_modes - basis.size, columns))], axis=1)
-        return factor.transposed(vectors).reshape(count * all_modes, columns)
+        return (transposed @ vectors).reshape(count * all_modes, columns)
 
     def upper(vectors: FloatArray) -> FloatArray:
         return np.ascontiguousarray((factor @ vectors.reshape(count, all_modes, columns))[:, : basis.size])

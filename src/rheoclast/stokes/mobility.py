@@ -21,6 +21,7 @@ Progress = Callable[[str, float], None]
 """Called with the name of the step and the fraction of it that is done."""
 
 PAIR_CHUNK_BYTES = 64e6
+ROWS_AT_A_TIME = 64
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +58,7 @@ class Mobility:
         from rheoclast.stokes.pair_kernels import matrix_rows
 
         matrix = np.empty((modes, count, modes, count))
-        piece = max(1, count // 20)
+        piece = max(ROWS_AT_A_TIME, count // 20)
         for first in range(0, count, piece):
             last = min(first + piece, count)
             matrix_rows(self.centers, self.radii, self._coefficients.elements, first, last, matrix)

@@ -11,14 +11,20 @@ import numpy as np
 
 from rheoclast._checks import FloatArray, IntArray
 from rheoclast.stokes.basis import MultipoleBasis
-from rheoclast.stokes.block_sparse import BlockSparse
+from rheoclast.stokes.block_rows import BlockRows
 from rheoclast.stokes.direct_sum import force_velocities, pair_velocities
 from rheoclast.stokes.octree import Octree
 from rheoclast.stokes.pair_blocks import PairCoefficients
+from rheoclast.stokes.pair_kernels import block_rows
+from rheoclast.stokes.solver import refuse_beyond_memory
 from rheoclast.vectors import STRAIN_BASIS
 
 HIGHEST_CLOSED_ORDER = 2
-PAIRS_AT_A_TIME = 16_384
+
+PAIR_COST = {1: 20.0, 2: 100.0}
+"""Time of a pair and right-hand side in closed form, over that of a multiplication and addition in a matrix product."""
+BLOCK_COST = 1.5
+"""The same for every number of a stored block."""
 
 ENTRIES = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2))
 """The five entries that give a symmetric traceless tensor."""
@@ -31,9 +37,10 @@ class NearField(ABC):
     def apply(self, tractions: FloatArray) -> FloatArray:
         """Velocities (N, M, K) from tractions (N, M, K)."""
 
-    @abstractmethod
-    def lowered(self, basis: MultipoleBasis) -> NearField:
-        """The same pairs at a lower multipole order."""
+
+def pair_cost(basis: MultipoleBasis) -> float:
+    """Time of a near pair and right-hand side, in operations of a matrix product."""
+    return PAIR_COST[basis.order] if basis.order <= HIGHEST_CLOSED_ORDER else BLOCK_COST * basis.size**2
 
 
 def near_field(
@@ -52,7 +59,7 @@ def near_field(
     """
     if basis.order <= HIGHEST_CLOSED_ORDER:
         return ClosedForm(centers, radii, basis, tree)
-    return StoredBlocks(centers, radii, _near_blocks(centers, radii, basis, tree, dtype), tree)
+    return StoredBlocks(_near_blocks(centers, radii, basis, tree, dtype))
 
 
 @final
@@ -75,10 +82,6 @@ class ClosedForm(NearField):
         velocities = np.empty_like(tractions)
         velocities[order] = self._from_motion @ (self._scale * motion.transpose(2, 1, 0))
         return velocities
-
-    def lowered(self, basis: MultipoleBasis) -> ClosedForm:
-        """See `NearField`."""
-        return ClosedForm(self.centers, self.radii, basis, self.tree)
 
     @cached_property
     def _sorted_spheres(self) -> tuple[FloatArray, FloatArray]:
@@ -126,40 +129,26 @@ class ClosedForm(NearField):
 @final
 @dataclass(frozen=True, eq=False)
 class StoredBlocks(NearField):
-    """Any order by the blocks of all near pairs, computed once; `blocks` holds each pair once, below the diagonal."""
+    """Any order by the blocks of all near pairs, computed once."""
 
-    centers: FloatArray
-    radii: FloatArray
-    blocks: BlockSparse
-    tree: Octree | None
+    blocks: BlockRows
 
     def apply(self, tractions: FloatArray) -> FloatArray:
         """See `NearField`."""
-        return self.blocks @ tractions + self.blocks.transposed(tractions)
-
-    def lowered(self, basis: MultipoleBasis) -> NearField:
-        """See `NearField`."""
-        if basis.order <= HIGHEST_CLOSED_ORDER:
-            return ClosedForm(self.centers, self.radii, basis, self.tree)
-        leading = np.ascontiguousarray(self.blocks.blocks[:, : basis.size, : basis.size])
-        blocks = BlockSparse(self.blocks.starts, self.blocks.members, leading)
-        return StoredBlocks(self.centers, self.radii, blocks, self.tree)
+        return self.blocks @ tractions
 
 
 def _near_blocks(
     centers: FloatArray, radii: FloatArray, basis: MultipoleBasis, tree: Octree | None, dtype: type[np.floating[Any]]
-) -> BlockSparse:
-    rows, columns = np.tril_indices(len(radii), -1) if tree is None else tree.near_point_pairs()
-    by_column = np.argsort(columns, kind="stable")
-    rows, columns = rows[by_column], columns[by_column]
-    coefficients = PairCoefficients.of(basis)
-    blocks = np.empty((len(rows), basis.size, basis.size), dtype)
-    for start in range(0, len(rows), PAIRS_AT_A_TIME):
-        piece = slice(start, start + PAIRS_AT_A_TIME)
-        i, j = rows[piece], columns[piece]
-        blocks[piece] = coefficients.blocks(centers[i] - centers[j], radii[i], radii[j])
-    starts = np.searchsorted(columns, np.arange(len(radii) + 1))
-    return BlockSparse(starts, rows, blocks)
+) -> BlockRows:
+    count = len(radii)
+    rows, columns = np.nonzero(~np.eye(count, dtype=bool)) if tree is None else tree.near_point_pairs()
+    starts = np.searchsorted(rows, np.arange(count + 1))
+    needed = len(rows) * basis.size**2 * np.dtype(dtype).itemsize
+    refuse_beyond_memory(needed, count, basis.order)
+    numbers = np.empty(len(rows) * basis.size**2, dtype)
+    block_rows(centers, radii, PairCoefficients.of(basis).elements, basis.size, starts, columns, numbers)
+    return BlockRows(starts, columns, numbers)
 
 
 def _weight(basis: FloatArray, row: int, column: int) -> float:

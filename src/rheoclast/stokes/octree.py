@@ -130,7 +130,7 @@ class Octree:
         return int(population[leaves] @ population[others])
 
     def near_point_pairs(self) -> tuple[IntArray, IntArray]:
-        """Points i > j of every unordered pair of points in neighbouring leaves."""
+        """Points i ≠ j of every ordered pair of points in neighbouring leaves, sorted by the first."""
         starts, neighbours = self.neighbours
         leaves = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
         population = np.diff(self.leaf_starts)
@@ -140,8 +140,10 @@ class Octree:
         place = np.arange(len(meeting)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
         one = self.order[self.leaf_starts[leaves[meeting]] + place // width[meeting]]
         other = self.order[self.leaf_starts[neighbours[meeting]] + place % width[meeting]]
-        once = one > other
-        return one[once], other[once]
+        by_first = np.argsort(one, kind="stable")
+        one, other = one[by_first], other[by_first]
+        different = one != other
+        return one[different], other[different]
 
     def far_pairs(self) -> int:
         """Number of ordered pairs of boxes that interact: children of neighbours less neighbours."""

@@ -7,12 +7,15 @@ vector register, so that the innermost loops run over the lanes.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit, prange
+from numpy.typing import NDArray
 
 from rheoclast._checks import FloatArray, IntArray
+
+Floats = NDArray[np.floating[Any]]
 
 LANES = 32
 
@@ -88,6 +91,69 @@ def matrix_rows(
             for m in range(modes):
                 for n in range(modes):
                     out[m, i, n, first : first + width] = blocks[m, n, :width]
+
+
+@njit(parallel=True, fastmath=True, error_model="numpy", cache=True)
+def block_rows(
+    centers: FloatArray,
+    radii: FloatArray,
+    elements: AxialElements,
+    modes: int,
+    starts: IntArray,
+    members: IntArray,
+    out: Floats,
+) -> None:
+    """Write the blocks of every sphere with its members, as `BlockRows` has them."""
+    for i in prange(starts.size - 1):
+        x, y, z = np.ones(LANES), np.zeros(LANES), np.zeros(LANES)
+        a, b = np.full(LANES, radii[i]), np.ones(LANES)
+        blocks = np.empty((modes, modes, LANES))
+        width = (starts[i + 1] - starts[i]) * modes
+        for first in range(starts[i], starts[i + 1], LANES):
+            lanes = min(LANES, starts[i + 1] - first)
+            for lane in range(lanes):
+                j = members[first + lane]
+                x[lane], y[lane], z[lane] = centers[i] - centers[j]
+                b[lane] = radii[j]
+            blocks[:] = 0.0
+            _add_blocks(x, y, z, a, b, elements, blocks)
+            for m in range(modes):
+                place = starts[i] * modes**2 + m * width + (first - starts[i]) * modes
+                for lane in range(lanes):
+                    for n in range(modes):
+                        out[place + lane * modes + n] = blocks[m, n, lane]
+
+
+@njit(fastmath=True, error_model="numpy", cache=True)
+def lower_triangle(
+    centers: FloatArray, radii: FloatArray, members: IntArray, self_mobility: FloatArray, elements: AxialElements
+) -> FloatArray:
+    """Blocks on and below the diagonal of the matrix (n M, n M) of n spheres."""
+    modes, count = self_mobility.size, members.size
+    matrix = np.zeros((count * modes, count * modes))
+    x, y, z = np.ones(LANES), np.zeros(LANES), np.zeros(LANES)
+    a, b = np.ones(LANES), np.ones(LANES)
+    rows, columns = np.empty(LANES, np.intp), np.empty(LANES, np.intp)
+    blocks = np.empty((modes, modes, LANES))
+    filled = 0
+    for row in range(count):
+        for m in range(modes):
+            matrix[row * modes + m, row * modes + m] = self_mobility[m] / radii[members[row]]
+        for column in range(row):
+            i, j = members[row], members[column]
+            x[filled], y[filled], z[filled] = centers[i] - centers[j]
+            a[filled], b[filled] = radii[i], radii[j]
+            rows[filled], columns[filled] = row * modes, column * modes
+            filled += 1
+            if filled == LANES or (row == count - 1 and column == row - 1):
+                blocks[:] = 0.0
+                _add_blocks(x, y, z, a, b, elements, blocks)
+                for lane in range(filled):
+                    for m in range(modes):
+                        for n in range(modes):
+                            matrix[rows[lane] + m, columns[lane] + n] = blocks[m, n, lane]
+                filled = 0
+    return matrix
 
 
 @njit(fastmath=True, error_model="numpy", cache=True)

@@ -10,19 +10,19 @@ from __future__ import annotations
 import numpy as np
 from numba import njit, prange
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from rheoclast._checks import FloatArray, IntArray
 from rheoclast._threads import one_blas_thread
 from rheoclast.stokes.basis import MultipoleBasis
-from rheoclast.stokes.block_sparse import BlockSparse
+from rheoclast.stokes.block_rows import BlockRows
 from rheoclast.stokes.pair_blocks import PairCoefficients
+from rheoclast.stokes.pair_kernels import AxialElements, lower_triangle
 
-SPHERES_AT_A_TIME = 4096
 
-
-def inverse_factor(centers: FloatArray, radii: FloatArray, basis: MultipoleBasis, reach: float) -> BlockSparse:
-    """The factor U, in single precision, which suffices for a preconditioner.
+def inverse_factor(
+    centers: FloatArray, radii: FloatArray, basis: MultipoleBasis, reach: float
+) -> tuple[BlockRows, BlockRows]:
+    """The factor U and its transpose, in single precision, which suffices for a preconditioner.
 
     Parameters
     ----------
@@ -33,15 +33,12 @@ def inverse_factor(centers: FloatArray, radii: FloatArray, basis: MultipoleBasis
     """
     order, scale = coarse_to_fine(centers)
     starts, members = _conditioning_sets(centers, order, scale, reach)
-    count, modes = len(radii), basis.size
-    coefficients = PairCoefficients.of(basis)
-    columns = np.zeros((len(members), modes, modes), np.float32)
-    for first in range(0, count, SPHERES_AT_A_TIME):
-        part = starts[first : first + SPHERES_AT_A_TIME + 1]
-        local, blocks = _pair_blocks(centers, radii, coefficients, part, members)
-        with one_blas_thread():
-            _block_columns(part, members, radii, basis.self_mobility, *local, blocks, columns)
-    return BlockSparse(starts, members, columns)
+    numbers = np.empty(len(members) * basis.size**2, np.float32)
+    elements = PairCoefficients.of(basis).elements
+    with one_blas_thread():
+        _block_columns(centers, radii, basis.self_mobility, elements, starts, members, numbers)
+    lower = BlockRows(starts, members, numbers)
+    return lower.transposed(), lower
 
 
 @njit(cache=True, fastmath=True)
@@ -74,59 +71,56 @@ def _conditioning_sets(
     centers: FloatArray, order: IntArray, scale: FloatArray, reach: float
 ) -> tuple[IntArray, IntArray]:
     """Spheres that each sphere is conditioned on and, last, itself: starts (N + 1,) and members."""
-    count = len(order)
-    position = np.empty(count, np.intp)
-    position[order] = np.arange(count)
-    sets: list[IntArray] = [np.empty(0, np.intp)] * count
-    sets[order[0]] = order[:1]
-    first = 1
-    while first < count:
-        # Length scales never grow along the order: a stretch within a factor two shares one search tree.
-        last = int(np.searchsorted(-scale, -scale[first] / 2, side="right"))
-        last = max(last, first + 1)
-        stretch = order[first:last]
-        near = cKDTree(centers[order[:last]]).query_ball_point(centers[stretch], reach * scale[first:last])
-        for sphere, found in zip(stretch, near, strict=True):
-            earlier = np.array(found, np.intp)
-            sets[sphere] = np.append(order[earlier[earlier < position[sphere]]], sphere)
-        first = last
-    starts = np.concatenate([[0], np.cumsum([len(each) for each in sets])])
-    return starts.astype(np.intp), np.concatenate(sets)
-
-
-def _pair_blocks(
-    centers: FloatArray, radii: FloatArray, coefficients: PairCoefficients, starts: IntArray, members: IntArray
-) -> tuple[tuple[IntArray, IntArray], FloatArray]:
-    """Blocks (P, M, M) of all pairs within some sets, each pair once, and where each set's pairs are among them.
-
-    The pairs (a, b), b < a, of a set follow one another row by row from `first[set]` in `index`.
-    """
-    sizes = np.diff(starts)
-    first = np.concatenate([[0], np.cumsum(sizes * (sizes - 1) // 2)])
-    keys = np.empty(first[-1], np.int64)
-    for size in np.unique(sizes[sizes > 1]):
-        chosen = np.flatnonzero(sizes == size)
-        sets = members[starts[chosen][:, None] + np.arange(size)]
-        a, b = np.tril_indices(size, -1)
-        low, high = np.minimum(sets[:, a], sets[:, b]), np.maximum(sets[:, a], sets[:, b])
-        keys[first[chosen][:, None] + np.arange(len(a))] = low * len(radii) + high
-    unique, index = np.unique(keys, return_inverse=True)
-    low, high = np.divmod(unique, len(radii))
-    return (first, index), coefficients.blocks(centers[low] - centers[high], radii[low], radii[high])
+    ordered = np.ascontiguousarray(centers[order].T)
+    squares = (reach * scale) ** 2
+    squares[0] = 0.0  # the first sphere has none before it
+    sizes = np.empty(len(order), np.intp)
+    sizes[order] = _count_near_before(ordered, squares)
+    starts = np.concatenate([[0], np.cumsum(sizes)])
+    members = np.empty(starts[-1], np.intp)
+    _list_near_before(ordered, squares, order, starts, members)
+    return starts, members
 
 
 @njit(parallel=True, fastmath=True, cache=True)
+def _count_near_before(points: FloatArray, squares: FloatArray) -> IntArray:
+    """Number of points (3, N) up to each one, itself among them, within the root of its square (N,)."""
+    counts = np.empty(squares.size, np.intp)
+    for i in prange(squares.size):
+        x, y, z, most = points[0, i], points[1, i], points[2, i], squares[i]
+        near = 0
+        for j in range(i + 1):
+            square = (points[0, j] - x) ** 2 + (points[1, j] - y) ** 2 + (points[2, j] - z) ** 2
+            near += square <= most
+        counts[i] = near
+    return counts
+
+
+@njit(parallel=True, fastmath=True, cache=True)
+def _list_near_before(
+    points: FloatArray, squares: FloatArray, order: IntArray, starts: IntArray, members: IntArray
+) -> None:
+    """The spheres that `_count_near_before` counts, by sphere."""
+    for i in prange(squares.size):
+        x, y, z, most = points[0, i], points[1, i], points[2, i], squares[i]
+        place = starts[order[i]]
+        for j in range(i + 1):
+            if (points[0, j] - x) ** 2 + (points[1, j] - y) ** 2 + (points[2, j] - z) ** 2 <= most:
+                members[place] = order[j]
+                place += 1
+
+
+@njit(parallel=True, fastmath=True, error_model="numpy", cache=True)
 def _block_columns(
-    starts: IntArray,
-    members: IntArray,
+    centers: FloatArray,
     radii: FloatArray,
     self_mobility: FloatArray,
-    first: IntArray,
-    index: IntArray,
-    blocks: FloatArray,
-    columns: NDArray[np.float32],
+    elements: AxialElements,
+    starts: IntArray,
+    members: IntArray,
+    numbers: NDArray[np.float32],
 ) -> None:
-    """Write the blocks of U in every set's column to `columns` at the places of its members.
+    """Write every set's block column of U, transposed, to `numbers` as `BlockRows` has them.
 
     With the set's mobility C Cᵀ and the sphere itself last, the column is the last block column of C⁻ᵀ.
     """
@@ -134,19 +128,7 @@ def _block_columns(
     for each in prange(starts.size - 1):
         begin, end = starts[each], starts[each + 1]
         size = (end - begin) * modes
-        matrix = np.zeros((size, size))
-        pair = first[each]
-        for a in range(end - begin):
-            row, sphere = a * modes, members[begin + a]
-            for m in range(modes):
-                matrix[row + m, row + m] = self_mobility[m] / radii[sphere]
-            for b in range(a):
-                column, block = b * modes, blocks[index[pair]]
-                pair += 1
-                if sphere < members[begin + b]:
-                    matrix[row : row + modes, column : column + modes] = block
-                else:
-                    matrix[row : row + modes, column : column + modes] = block.T
+        matrix = lower_triangle(centers, radii, members[begin:end], self_mobility, elements)
         lower = np.linalg.cholesky(matrix)
         for m in range(modes):
             solution = np.zeros(size)
@@ -156,5 +138,5 @@ def _block_columns(
                 solution[row] = value
                 for above in range(row):
                     solution[above] -= lower[row, above] * value
-            for a in range(end - begin):
-                columns[begin + a, :, m] = solution[a * modes : (a + 1) * modes]
+            place = begin * modes**2 + m * size
+            numbers[place : place + size] = solution

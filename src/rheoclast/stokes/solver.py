@@ -52,20 +52,20 @@ class Solver(ABC):
     def memory(self, count: int, basis: MultipoleBasis) -> float:
         """Memory in bytes that the solution for `count` spheres takes at most."""
 
-    def refuse_beyond_memory(self, mobility: Mobility) -> None:
-        """Refuse a problem that does not fit into the memory that is free.
 
-        Raises
-        ------
-        MemoryError
-            With what is needed, what is free, and what to do.
-        """
-        import psutil
+def refuse_beyond_memory(needed: float, count: int, order: int) -> None:
+    """Refuse a problem that does not fit into the memory that is free.
 
-        count, basis = len(mobility.radii), mobility.basis
-        needed, available = self.memory(count, basis), psutil.virtual_memory().available
-        if needed > available:
-            raise MemoryError(
-                f"order {basis.order} of {count} spheres needs {needed / 1e9:.3g} GB of memory, "
-                f"{available / 1e9:.3g} GB are free; use a lower order or fewer spheres"
-            )
+    Raises
+    ------
+    MemoryError
+        With what is needed, what is free, and what to do.
+    """
+    import psutil
+
+    available = psutil.virtual_memory().available
+    if needed > available:
+        raise MemoryError(
+            f"order {order} of {count} spheres needs {needed / 1e9:.3g} GB of memory, "
+            f"{available / 1e9:.3g} GB are free; use a lower order or fewer spheres"
+        )

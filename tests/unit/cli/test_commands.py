@@ -308,11 +308,11 @@ class TestRefusals:
         assert "viscosity 1e+04 Pa s exceeds 1000 Pa s" in run("stress", small, "--unit", "um", "--viscosity", 1e4)[2]
 
     def test_memory_is_told_beforehand(self, run, tmp_path):
-        """At order 4 the matrix of 200 spheres takes 8 (200 · 47)² bytes, and its leading part a third of that."""
+        """At order 6 the blocks of 200 spheres take 4 (200 · 107)² bytes and the factor a quarter of that."""
         path = tmp_path / "chain.dat"
         path.write_text("".join(f"{2 * k} 0 0 1\n" for k in range(200)))
-        _, _, err = run("info", path, "--unit", "um", "--order", 4)
-        assert err.strip() == "200 spheres: up to 1.2 GB of memory"
+        _, _, err = run("info", path, "--unit", "um", "--order", 6)
+        assert err.strip() == "200 spheres: up to 2.3 GB of memory"
 
     def test_debug_shows_the_traceback(self, small):
         with pytest.raises(ValueError, match="expected nine numbers"):

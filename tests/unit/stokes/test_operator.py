@@ -5,6 +5,7 @@ import pytest
 from scipy.sparse.linalg import LinearOperator, cg
 from threadpoolctl import threadpool_info
 
+from rheoclast._threads import one_blas_thread
 from rheoclast.stokes import dense as dense_module
 from rheoclast.stokes import mobility as module
 from rheoclast.stokes.basis import MultipoleBasis
@@ -47,12 +48,18 @@ def test_conjugate_gradients_can_replace_the_dense_solver():
         np.testing.assert_allclose(iterated.reshape(shape[:2]), dense[:, :, k], rtol=0, atol=1e-9 * np.abs(dense).max())
 
 
-@pytest.mark.parametrize(("size", "guarded"), [(15_000, False), (16_000, True)])
-def test_one_thread_where_threads_crash(size, guarded):
+@pytest.mark.parametrize(("size", "served"), [(1_100, False), (3_300, True), (15_000, True), (16_000, False)])
+def test_one_thread_where_threads_crash_or_do_not_pay(size, served):
+    assert dense_module.threads_serve(size) == served
+
+
+def test_one_blas_thread():
     def threads():
         return {pool["num_threads"] for pool in threadpool_info() if pool["user_api"] == "blas"}
 
     before = threads()
-    with dense_module._safe_threads(size):
-        assert threads() == ({1} if guarded else before)
+    with one_blas_thread():
+        assert threads() == {1}
+    with one_blas_thread(when=False):
+        assert threads() == before
     assert threads() == before

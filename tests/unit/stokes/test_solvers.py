@@ -8,7 +8,7 @@ import pytest
 import rheoclast as rc
 from rheoclast.stokes.basis import MultipoleBasis
 from rheoclast.stokes.dense import DenseCholesky
-from rheoclast.stokes.mobility import PAIR_CHUNK_BYTES, Mobility
+from rheoclast.stokes.mobility import Mobility
 
 from ...agreement.clusters import sticking_cluster
 
@@ -90,8 +90,8 @@ def test_refuses_what_does_not_fit_into_memory():
 
 @pytest.mark.parametrize(("order", "both"), [(1, 3**2), (2, 11**2 + 3**2), (3, 26**2 + 11**2)])
 def test_memory_is_that_of_the_matrix_and_of_its_leading_part(order, both):
-    """8 bytes per element of a matrix of this order and of the next lower one, and the pieces of pairs."""
-    expected = 8 * 200**2 * both + 4 * PAIR_CHUNK_BYTES
+    """8 bytes per element of a matrix of this order and of the next lower one."""
+    expected = 8 * 200**2 * both
     assert DenseCholesky().memory(200, MultipoleBasis(order)) == pytest.approx(expected)
     assert rc.StokesianDynamics(order=order, solver=DenseCholesky()).memory(200) == pytest.approx(expected)
 

@@ -1,0 +1,109 @@
+"""The command that grows an aggregate: one subcommand per family, with the family's own parameters as options."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from inspect import Parameter, Signature, signature
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from rheoclast import io as files
+from rheoclast.cli import options
+from rheoclast.cli.console import screen
+from rheoclast.cli.presentation import show_shape
+from rheoclast.cli.tables import shape_summary
+from rheoclast.generation.families import FAMILIES, Family
+from rheoclast.generation.lattices import LATTICES
+from rheoclast.io.files import writable
+
+RADIUS = 0.5e-6
+"""Default radius in m; that of the families, one metre, suits calculations without units."""
+
+HELP = {
+    "count": "Number of spheres.",
+    "radius": "Radius of the spheres in m, the median where they are unequal.",
+    "spread": "Standard deviation of the logarithm of the radius.",
+    "seed": "Equal seeds give equal aggregates.",
+    "bend": "Angle in rad between successive links.",
+    "torsion": "Angle in rad between the planes of successive pairs of links.",
+    "arm": "Spheres along each arm.",
+    "arms": "Number of arms, 4 or 6.",
+    "lattice": f"One of: {', '.join(LATTICES)}.",
+    "counts": "Spheres in a row, rows in a layer, layers.",
+    "fractal_dimension": "Fractal dimension D in N = k (Rg/a)^D.",
+    "prefactor": "Prefactor k in N = k (Rg/a)^D.",
+    "migrations": "Contacts that each sphere rolls on to: 1 or 2.",
+    "disorder": "Random addition, in radii, to the distance that ranks the places.",
+    "coordination": "Mean number of contacts of a sphere.",
+    "amount": "Share of the way from the tree (0) to the packing (1).",
+}
+
+EXAMPLES = {
+    "bent-chain": "20 --bend 0.2",
+    "cross": "5",
+    "lattice-block": "fcc 4 4 3",
+    "lattice-ball": "hcp 100",
+    "cluster-cluster": "300 --fractal-dimension 1.8 --prefactor 1.3 --seed 7",
+    "thinned-fcc-ball": "200 4 --output thinned.vtp",
+    "compacted-cluster": "200 --amount 0.5",
+}
+
+generate = typer.Typer(no_args_is_help=True, rich_markup_mode="rich")
+
+
+@generate.callback()
+def about() -> None:
+    """Grow an aggregate and write its spheres to a file that the other commands read.
+
+    [bold]Example:[/bold] rheoclast generate cluster-cluster 300 --fractal-dimension 1.8 --output floc.dat
+    """
+
+
+def _command(name: str, family: Family) -> Callable[..., None]:
+    """The command of a family: it takes the family's parameters, and where to write."""
+
+    def command(
+        *,
+        output: Annotated[
+            Path | None, typer.Option(help="File to write; by default named after the family.", show_default=False)
+        ] = None,
+        file_format: options.Format = None,
+        overwrite: options.Overwrite = False,
+        **parameters: Any,
+    ) -> None:
+        path = Path(f"{name}.dat") if output is None else output
+        writable(path, overwrite)  # refused now rather than after the growth
+        aggregate = family(**parameters)
+        if name.startswith("thinned") and path.suffix != ".vtp":
+            warnings.warn(
+                f"{path} has no place for contacts: once read, all spheres that touch are joined", stacklevel=2
+            )
+        files.write(path, aggregate, format=file_format, overwrite=overwrite)
+        show_shape(str(path), shape_summary(aggregate), "m")
+        screen.print(f"next: rheoclast stress {path} --rate 1e5 --output results", soft_wrap=True, markup=False)
+
+    example = f"rheoclast generate {name} {EXAMPLES.get(name, '100')}"
+    purpose = (family.__doc__ or "").splitlines()[0].replace("`", "")
+    command.__doc__ = f"{purpose}\n\n[bold]Example:[/bold] {example}"
+    own = [each for each in signature(command, eval_str=True).parameters.values() if each.name != "parameters"]
+    taken = [_parameter(each) for each in signature(family, eval_str=True).parameters.values()]
+    command.__signature__ = Signature([*taken, *own])  # type: ignore[attr-defined]
+    command.__annotations__ = {each.name: each.annotation for each in (*taken, *own)}
+    return command
+
+
+def _parameter(given: Parameter) -> Parameter:
+    """A parameter of a family as an argument of the command, if it stands first and has no default, or as an option."""
+    required = given.default is Parameter.empty
+    kind = typer.Argument if required and given.kind is not Parameter.KEYWORD_ONLY else typer.Option
+    annotation: Any = given.annotation
+    default = RADIUS if given.name == "radius" else given.default
+    described = Annotated[annotation, kind(help=HELP[given.name])]
+    return Parameter(given.name, Parameter.KEYWORD_ONLY, default=default, annotation=described)
+
+
+for _name, _family in FAMILIES.items():
+    generate.command(_name)(_command(_name, _family))
