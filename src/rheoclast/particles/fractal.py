@@ -58,16 +58,16 @@ class PairCorrelationDimension:
 
 
 def fractal_law(aggregates: Sequence[Aggregate], confidence: float = CONFIDENCE) -> FractalLaw:
-    """Fractal dimension and prefactor by least squares of ln N on ln (Rg/a) over aggregates of several sizes.
+    """Fractal dimension and prefactor by least squares of ln (Rg/a) on ln N over aggregates of several sizes.
 
-    The intervals are Student's, for independent aggregates. Two biases are not in them: aggregates of few spheres lie
-    off the law, and the scatter of ln Rg at equal N lowers the dimension by its share in the variance of ln Rg; both
-    fade with a wider range of sizes.
+    The number of spheres is what is chosen and the radius of gyration what scatters; the fit of ln N on ln Rg would
+    take this scatter for a lower dimension. The intervals are Student's, for independent aggregates, and carry over
+    to dimension and prefactor to first order. Aggregates of few spheres lie off the law, which they do not tell.
 
     Raises
     ------
     ValueError
-        For fewer than three aggregates, or if all have the same radius of gyration.
+        For fewer than three aggregates, if all have the same number of spheres, or if they do not grow with it.
     """
     for k, aggregate in enumerate(aggregates):
         _checks.instance(f"aggregates[{k}]", aggregate, Aggregate, "pass a sequence of aggregates")
@@ -76,19 +76,21 @@ def fractal_law(aggregates: Sequence[Aggregate], confidence: float = CONFIDENCE)
         raise ValueError(f"aggregates: expected at least 3, got {count}; add aggregates of other sizes")
     sizes = np.log([len(aggregate) for aggregate in aggregates])
     gyrations = np.log([_relative_gyration(aggregate.spheres) for aggregate in aggregates])
-    offsets = gyrations - gyrations.mean()
+    offsets = sizes - sizes.mean()
     spread = float(offsets @ offsets)
-    if spread <= 1e-18 * count:
-        raise ValueError(f"aggregates: expected several sizes, got {count} of one radius of gyration; vary the count")
-    slope = float(offsets @ sizes) / spread
-    intercept = float(sizes.mean() - slope * gyrations.mean())
-    residual = sizes - intercept - slope * gyrations
+    if spread == 0:
+        raise ValueError(f"aggregates: expected several sizes, got {count} of {len(aggregates[0])} spheres")
+    slope = float(offsets @ gyrations) / spread
+    if slope <= 0:
+        raise ValueError("aggregates: expected radii of gyration that grow with the number of spheres, got a fall")
+    residual = gyrations - gyrations.mean() - slope * offsets
     scatter = _student_quantile(confidence, count - 2) * np.sqrt(residual @ residual / (count - 2))
+    intercept = float(sizes.mean() - gyrations.mean() / slope)
     of_slope = float(scatter / np.sqrt(spread))
-    of_intercept = float(scatter * np.sqrt(1 / count + gyrations.mean() ** 2 / spread))
+    of_intercept = float(scatter / slope * np.sqrt(1 / count + (intercept - sizes.mean()) ** 2 / spread))
     return FractalLaw(
-        dimension=slope,
-        dimension_interval=(slope - of_slope, slope + of_slope),
+        dimension=1 / slope,
+        dimension_interval=(1 / (slope + of_slope), 1 / (slope - of_slope) if of_slope < slope else np.inf),
         prefactor=float(np.exp(intercept)),
         prefactor_interval=(float(np.exp(intercept - of_intercept)), float(np.exp(intercept + of_intercept))),
     )

@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
-from scipy.stats import linregress, t
+from scipy.stats import t
 
 import rheoclast as rc
+from rheoclast.generation import ring
 from rheoclast.particles.fractal import _jackknife_error, fractal_law, pair_correlation_dimension
 from rheoclast.particles.morphology import radius_of_gyration
 
@@ -33,10 +34,11 @@ def directed_walk(count):
     return 2 * np.cumsum(steps, axis=0)
 
 
-def pair_at(distance, radii=(1.0, 1.0)):
-    """Two spheres joined by a chain of small ones would be an aggregate; here the contact is declared."""
-    spheres = rc.Spheres([[0, 0, 0], [distance, 0, 0]], radii)
-    return rc.Aggregate(spheres, [[0, 1]])
+def stretched(count, gyration):
+    """Unit spheres in line, declared to be in contact, so far apart that they have the radius of gyration."""
+    distance = np.sqrt(12 * (gyration**2 - 0.6) / (count**2 - 1))
+    spheres = rc.Spheres(np.outer(distance * np.arange(count), [1, 0, 0]), 1.0)
+    return rc.Aggregate(spheres, np.stack([np.arange(count - 1), np.arange(1, count)], axis=1))
 
 
 def test_law_of_chains_layers_and_balls():
@@ -61,18 +63,32 @@ def test_law_passes_through_three_chains():
 
 
 def test_interval_of_the_law_is_the_textbook_one():
-    """Slope, intercept and standard errors agree with scipy.stats.linregress times Student's quantile."""
-    rng = np.random.default_rng(3)
-    aggregates = [pair_at(d) for d in rng.uniform(2, 60, 9)] + [chain(n) for n in (5, 9, 17)]
-    log_gyration = np.log([radius_of_gyration(a.spheres) for a in aggregates])
-    reference = linregress(log_gyration, np.log([len(a) for a in aggregates]))
+    """Fit of ln Rg on ln N and its covariance by NumPy, carried over to D = 1/s and ln k = −c/s to first order."""
+    aggregates = [shape(n) for n in (5, 9, 17, 33) for shape in (chain, ring)]
+    sizes = np.log([len(a) for a in aggregates])
+    gyrations = np.log([radius_of_gyration(a.spheres) for a in aggregates])
+    (slope, intercept), covariance = np.polyfit(sizes, gyrations, 1, cov=True)
     law = fractal_law(aggregates, confidence=0.9)
-    quantile = t.ppf(0.95, 10)
-    assert law.dimension == pytest.approx(reference.slope, rel=1e-10)
-    assert np.log(law.prefactor) == pytest.approx(reference.intercept, rel=1e-10)
-    assert law.dimension_interval[1] - law.dimension == pytest.approx(quantile * reference.stderr, rel=1e-9)
+    quantile = t.ppf(0.95, len(aggregates) - 2)
+    assert law.dimension == pytest.approx(1 / slope, rel=1e-10)
+    assert np.log(law.prefactor) == pytest.approx(-intercept / slope, rel=1e-10)
+    reach = quantile * np.sqrt(covariance[0, 0])
+    np.testing.assert_allclose(law.dimension_interval, (1 / (slope + reach), 1 / (slope - reach)), rtol=1e-9)
+    gradient = np.array([intercept / slope**2, -1 / slope])
     upper = np.log(law.prefactor_interval[1] / law.prefactor)
-    assert upper == pytest.approx(quantile * reference.intercept_stderr, rel=1e-9)
+    assert upper == pytest.approx(quantile * np.sqrt(gradient @ covariance @ gradient), rel=1e-9)
+
+
+def test_scatter_at_equal_number_does_not_lower_the_dimension():
+    """Radii of gyration off the law by 30 % either way: N on Rg would give 2.25, below the 2.5 of the law."""
+    rng = np.random.default_rng(0)
+    aggregates = []
+    for count in np.geomspace(10, 100, 12).round().astype(int):
+        for _ in range(40):
+            aggregates.append(stretched(count, 50 * count**0.4 * np.exp(0.3 * rng.standard_normal())))
+    law = fractal_law(aggregates)
+    assert law.dimension == pytest.approx(2.5, abs=0.12)
+    assert law.dimension_interval[0] < 2.5 < law.dimension_interval[1]
 
 
 def test_unequal_spheres_count_by_their_geometric_mean():
@@ -131,8 +147,10 @@ def test_too_little_is_refused():
     """With what was expected, what came, and what to do."""
     with pytest.raises(ValueError, match=r"aggregates: expected at least 3, got 2; add aggregates of other sizes"):
         fractal_law([chain(3), chain(4)])
-    with pytest.raises(ValueError, match=r"expected several sizes, got 3 of one radius of gyration"):
+    with pytest.raises(ValueError, match=r"expected several sizes, got 3 of 3 spheres"):
         fractal_law([chain(3)] * 3)
+    with pytest.raises(ValueError, match=r"expected radii of gyration that grow with the number of spheres"):
+        fractal_law([chain(20), layer(2), layer(3)])
     with pytest.raises(TypeError, match=r"aggregates\[1\]: expected Aggregate, got Spheres"):
         fractal_law([chain(3), chain(4).spheres, chain(5)])
     with pytest.raises(ValueError, match=r"radius of gyration of at least 8 mean sphere radii, got 5\.8;"):
