@@ -29,6 +29,7 @@ SIZES = (100, 300, 1000, 3000, 10_000, 30_000, 100_000)
 LARGEST_DENSE = 1000
 LARGEST_PEER = 1000
 LARGEST_REPEATED = 10_000
+FITTED_FROM = (300, 10_000)
 ORDERS = (2, 3, 4)
 SPHERES_OF_ORDERS = 1000
 FLOPS_OF_A_PAIR = 225
@@ -139,13 +140,9 @@ def main() -> None:
     sizes = [size for size in SIZES if size <= options.largest]
     table, iterative, dense = by_size(sizes, options.dimension, options.peers)
     console.print(table)
-    for name, times, smallest in (
-        ("iterative", iterative, 300),
-        ("dense", dense, 300),
-        ("iterative", iterative, 10_000),
-    ):
-        if sum(size >= smallest for size in times) > 1:
-            console.print(f"{name}: N^{exponent(times, smallest):.2f} from {smallest} spheres on")
+    for name, times in (("iterative", iterative), ("dense", dense)):
+        for least in (least for least in FITTED_FROM if max(times) > least):
+            console.print(f"{name}: N^{exponent(times, least):.2f} from {least} spheres on")
     console.print(by_order(options.dimension))
     draw(iterative, dense).savefig(Path(__file__).with_suffix(".png"), dpi=100)
 
@@ -154,7 +151,10 @@ def draw(iterative: dict[int, float], dense: dict[int, float]) -> plt.Figure:
     """Time against number of spheres."""
     figure, panel = plt.subplots(figsize=(6, 4.5), layout="constrained")
     for name, times, colour in (("iterative", iterative, "#0072b2"), ("dense Cholesky", dense, "#d55e00")):
-        label = f"{name}: N^{exponent(times, 300):.2f} from 300 on"
+        label = ", ".join(
+            f"N^{exponent(times, least):.2f} from {least} on" for least in FITTED_FROM if max(times) > least
+        )
+        label = f"{name}: {label}"
         panel.loglog(list(times), list(times.values()), "o-", color=colour, label=label)
     panel.set(xlabel="spheres", ylabel="seconds, all eleven problems, order 2")
     panel.grid(alpha=0.3, lw=0.5)

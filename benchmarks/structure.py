@@ -16,7 +16,6 @@ from rich.table import Table
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import breadth_first_order, connected_components
 from scipy.spatial import cKDTree
-from scipy.spatial.transform import Rotation
 
 import rheoclast as rc
 
@@ -26,23 +25,6 @@ OCCUPANCY = 0.42  # of the sites of an fcc lattice: coordination 5
 BONDS = rc.Bonds(
     normal=1.0, tangential=0.8, bending=5.7e-3, twisting=7.7e-3
 )  # ratios of the JKR example in micrometres
-
-
-def open_tree(count: int) -> rc.Aggregate:
-    """Tree of equal spheres: two halves, turned at random, touch where each reaches farthest towards the other."""
-    random = np.random.default_rng(count)
-    known = {1: np.zeros((1, 3))}
-
-    def centers(size: int) -> np.ndarray:
-        if size not in known:
-            one, other = centers(size - size // 2), Rotation.random(rng=random).apply(centers(size // 2))
-            direction = random.normal(size=3)
-            direction /= np.linalg.norm(direction)
-            meeting = one[np.argmax(one @ direction)] - other[np.argmin(other @ direction)] + 2 * direction
-            known[size] = np.vstack([one, other + meeting])
-        return known[size]
-
-    return rc.Aggregate.touching(rc.Spheres(centers(count), 1.0))
 
 
 def porous_ball(count: int) -> rc.Aggregate:
@@ -117,7 +99,7 @@ def main() -> None:
         "power",
         title="Contacts per sphere; largest moment and load left over, per largest load",
     )
-    for name, build in (("tree", open_tree), ("loops", porous_ball)):
+    for name, build in (("tree", rc.generation.ballistic_cluster_cluster), ("loops", porous_ball)):
         times: list[float] = []
         for count in COUNTS:
             with multiprocessing.get_context("spawn").Pool(1) as fresh:  # the peak of memory is that of a process

@@ -29,6 +29,8 @@ from rheoclast.hydrodynamics.model import HydrodynamicModel
 from rheoclast.hydrodynamics.free_draining import FreeDraining
 from rheoclast.hydrodynamics.exposed_area import ExposedArea
 from rheoclast.hydrodynamics.stokesian_dynamics import StokesianDynamics
+from rheoclast.stokes.dense import DenseCholesky
+from rheoclast.stokes.iterative import BlockConjugateGradients
 from rheoclast.hydrodynamics.response import RigidResponse, rigid_response
 from rheoclast.hydrodynamics.motion import RigidMotion, Settling
 from rheoclast.loads import SphereLoads
@@ -83,6 +85,8 @@ __all__ = [
     "FreeDraining",
     "ExposedArea",
     "StokesianDynamics",
+    "DenseCholesky",
+    "BlockConjugateGradients",
     "RigidResponse",
     "rigid_response",
     "RigidMotion",

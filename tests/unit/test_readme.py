@@ -10,9 +10,11 @@ def test_python_blocks_run(monkeypatch, capsys):
     monkeypatch.chdir(ROOT)
     blocks = re.findall(r"^```python\n(.*?)^```", (ROOT / "README.md").read_text(encoding="utf-8"), re.S | re.M)
     assert blocks
+    names: dict[str, object] = {}
     for block in blocks:
-        exec(compile(block, "README.md", "exec"), {})
-    printed = [float(line) for line in capsys.readouterr().out.split()]
-    given, worst, rate = printed
+        exec(compile(block, "README.md", "exec"), names)
+    given, worst, rate, open_contacts, denser_contacts, dimension = map(float, capsys.readouterr().out.split())
     assert 0 < given <= worst
     assert rate > 0
+    assert open_contacts < 2 < denser_contacts
+    assert 1.5 < dimension < 2.1

@@ -19,7 +19,7 @@ from rheoclast import generation
 
 HERE = Path(__file__).parent
 SIZES = (30, 60, 120, 250, 500, 1000, 2000)
-SEEDS = 30
+SEEDS = 100
 
 
 class Published(NamedTuple):

@@ -16,7 +16,7 @@ import rheoclast
 from rheoclast import io as files
 from rheoclast.cli import options, results
 from rheoclast.cli.analysis import Analysis, analyse
-from rheoclast.cli.console import plain_speech, progress_bar, screen, tell_memory
+from rheoclast.cli.console import INTERRUPTED, plain_speech, progress_bar, screen, tell_memory
 from rheoclast.cli.generation import generate
 from rheoclast.cli.presentation import show_shape, show_stress
 from rheoclast.cli.tables import shape_summary, stress_summary
@@ -39,6 +39,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
             stream.reconfigure(errors="replace")  # screens that lack a character show a question mark
     with plain_speech(debug="--debug" in given):
         status = app([argument for argument in given if argument != "--debug"] or ["--help"], standalone_mode=False)
+        if status == INTERRUPTED:  # typer has caught it already
+            raise KeyboardInterrupt
         raise SystemExit(status or 0)
 
 

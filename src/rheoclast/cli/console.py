@@ -14,6 +14,7 @@ from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeEl
 
 SECONDS_WITHOUT_PROGRESS = 2.0
 WORTH_TELLING = 1e9  # bytes
+INTERRUPTED = 130  # exit status
 
 REFUSALS = (ValueError, TypeError, OSError, ArithmeticError, MemoryError)
 UsageProblem: type[typer.BadParameter] = typer.BadParameter.__mro__[2]  # the exception of all wrong options
@@ -41,7 +42,7 @@ def plain_speech(debug: bool) -> Iterator[None]:
             raise SystemExit(2) from None
         except (KeyboardInterrupt, typer.Abort):
             messages.print("interrupted; nothing was written", soft_wrap=True)
-            raise SystemExit(130) from None
+            raise SystemExit(INTERRUPTED) from None
         finally:
             for text in dict.fromkeys(_one_line(warning.message) for warning in caught or ()):
                 messages.print(f"[yellow]warning:[/yellow] {text}", soft_wrap=True)

@@ -50,14 +50,19 @@ class FastMobility:
         """The operator of the next lower order, which acts on the first modes of this one."""
         mobility, basis = self.mobility, MultipoleBasis(self.mobility.basis.order - 1)
         lower = Mobility(mobility.centers, mobility.radii, basis)
-        return _with_far_field(lower, None if self.far is None else self.far.lowered(basis), self.accuracy)
+        far = self.far.lowered(basis) if self.far is not None and _octree_pays(lower) else None
+        return _with_far_field(lower, far, self.accuracy)
 
 
 def fast_mobility(mobility: Mobility, accuracy: float) -> FastMobility:
     """The operator of any order, its far field to an accuracy as `far_field` defines it."""
-    fewest = FEWEST_IN_OCTREE if mobility.basis.order <= HIGHEST_CLOSED_ORDER else FEWEST_IN_OCTREE_OF_BLOCKS
     spheres = mobility.centers, mobility.radii, mobility.basis
-    return _with_far_field(mobility, far_field(*spheres, accuracy) if len(mobility.radii) >= fewest else None, accuracy)
+    return _with_far_field(mobility, far_field(*spheres, accuracy) if _octree_pays(mobility) else None, accuracy)
+
+
+def _octree_pays(mobility: Mobility) -> bool:
+    closed = mobility.basis.order <= HIGHEST_CLOSED_ORDER
+    return len(mobility.radii) >= (FEWEST_IN_OCTREE if closed else FEWEST_IN_OCTREE_OF_BLOCKS)
 
 
 def _with_far_field(mobility: Mobility, far: FarField | None, accuracy: float) -> FastMobility:
