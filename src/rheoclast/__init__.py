@@ -47,6 +47,7 @@ from rheoclast.mechanics.criteria import load_ratios
 from rheoclast.breakup.contact_response import ContactResponse, contact_response
 from rheoclast.breakup.truncation import TruncationError, truncation_error
 from rheoclast.breakup.initiation import Initiation, initiation, worst_initiation
+from rheoclast.breakup.crack import Breakup, Failure, break_up
 
 from rheoclast.errors import FileFormatError, GeometryError, UnitWarning
 # isort: on
@@ -110,6 +111,9 @@ __all__ = [
     "Initiation",
     "initiation",
     "worst_initiation",
+    "Breakup",
+    "Failure",
+    "break_up",
     "FileFormatError",
     "GeometryError",
     "UnitWarning",

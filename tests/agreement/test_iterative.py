@@ -51,7 +51,9 @@ def test_fast_operator_is_the_mobility(order):
 
 @pytest.mark.parametrize("order", [2, 3, 4])
 def test_lower_order_is_the_leading_part(order):
-    """Nested: the lower order's operator is this one on its first modes."""
+    """Nested: the lower order's operator is this one on its first modes, to rounding or, where one of the two goes
+    through the octree, to its accuracy.
+    """
     mobility = Mobility(*sticking_cluster(450, 7), MultipoleBasis(order))
     lower = MultipoleBasis(order - 1).size
     tractions = np.zeros((450, mobility.basis.size, 2))
@@ -59,7 +61,7 @@ def test_lower_order_is_the_leading_part(order):
     fast = fast_mobility(mobility, accuracy=1e-4)
     expected = (fast @ tractions)[:, :lower]
     found = fast.lowered() @ np.ascontiguousarray(tractions[:, :lower])
-    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-6 * np.abs(expected).max())
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-4 * np.abs(expected).max())
 
 
 @pytest.mark.parametrize("order", [1, 2, 3])

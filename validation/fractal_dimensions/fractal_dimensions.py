@@ -1,6 +1,6 @@
 """Fractal dimensions of the families of open aggregates against published ones.
 
-Writes fractal_dimensions.csv and fractal_dimensions.png beside this file. Takes about five minutes.
+Writes fractal_dimensions.csv and fractal_dimensions.png beside this file. Takes about five minutes on one core.
 """
 
 from __future__ import annotations
@@ -118,7 +118,7 @@ def draw(ensembles: Mapping[str, list[rc.Aggregate]]) -> plt.Figure:
         )
     panel.set(xlabel="radius of gyration / sphere radius", ylabel="spheres (families shifted by factors of two)")
     panel.grid(alpha=0.3, lw=0.5)
-    panel.legend(frameon=False, fontsize=8)
+    figure.legend(loc="outside lower center", ncols=2, frameon=False, fontsize=8)
     return figure
 
 

@@ -91,7 +91,7 @@ def spring_frame(nodes: FloatArray, pairs: IntArray, points: FloatArray, stiffne
     equilibrium = equilibrium_matrix(nodes, pairs, points)
     difference = nodes[pairs[:, 1]] - nodes[pairs[:, 0]]
     normals = difference / np.linalg.norm(difference, axis=1, keepdims=True)
-    stress = -_joint_stiffness(normals, stiffness) @ equilibrium.T
+    stress = -joint_stiffness(normals, stiffness) @ equilibrium.T
     held = (-equilibrium @ stress).tocsr()[6:, 6:]
     try:
         factor = _factorized(held, nodes[1:], pairs[(pairs > 0).all(axis=1)] - 1)
@@ -110,7 +110,7 @@ def _factorized(stiffness: csr_array, nodes: FloatArray, pairs: IntArray) -> Fac
     return splu(stiffness.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
 
 
-def _joint_stiffness(normals: FloatArray, stiffness: FloatArray) -> bsr_array:
+def joint_stiffness(normals: FloatArray, stiffness: FloatArray) -> bsr_array:
     """Block-diagonal stiffness (6C, 6C) in fixed axes: along n and across it, for force and for moment."""
     along = normals[:, :, None] * normals[:, None, :]
     across = np.eye(3) - along

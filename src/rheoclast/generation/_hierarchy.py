@@ -1,7 +1,7 @@
 """Clusters of clusters: two pieces of like size are grown in the same way, then joined.
 
 The hierarchical model of R. Botet, R. Jullien and M. Kolb, J. Phys. A 17 (1984) L75, where the number of spheres is a
-power of two; here the pieces differ by at most one sphere.
+power of two; here any number is halved, the halves differing by at most one sphere, or split in another share.
 """
 
 from __future__ import annotations

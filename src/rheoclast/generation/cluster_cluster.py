@@ -75,14 +75,14 @@ def cluster_cluster(
         without overlap was found.
     """
     radii, rng = _growth.begin(count, radius, spread, seed, least=2)
-    law = FractalLaw(_dimension(fractal_dimension), _checks.positive("prefactor", prefactor))
+    law = SizeLaw(_dimension(fractal_dimension), _checks.positive("prefactor", prefactor))
     _refuse_impossible(law, radii)
     grown = _grown(radii, law, rng)
     return _growth.finished(grown.centers, grown.radii, radius)
 
 
 @dataclass(frozen=True)
-class FractalLaw:
+class SizeLaw:
     """N = k (R_g / a)^D with a the geometric mean radius."""
 
     dimension: float
@@ -105,7 +105,7 @@ def _dimension(value: float) -> float:
     return dimension
 
 
-def _refuse_impossible(law: FractalLaw, radii: FloatArray) -> None:
+def _refuse_impossible(law: SizeLaw, radii: FloatArray) -> None:
     """Refuse a law whose radius of gyration no arrangement can have."""
     asked, count = np.sqrt(law.gyration2(radii)), len(radii)
     equal = bool((radii == radii[0]).all())
@@ -125,7 +125,7 @@ def _refuse_impossible(law: FractalLaw, radii: FloatArray) -> None:
         )
 
 
-def _grown(radii: FloatArray, law: FractalLaw, rng: np.random.Generator) -> Cluster:
+def _grown(radii: FloatArray, law: SizeLaw, rng: np.random.Generator) -> Cluster:
     from rheoclast.generation._hierarchy import hierarchy
 
     def join(first: Cluster, second: Cluster) -> Cluster:
@@ -143,7 +143,7 @@ def _grown(radii: FloatArray, law: FractalLaw, rng: np.random.Generator) -> Clus
     )
 
 
-def _joined(first: Cluster, second: Cluster, law: FractalLaw, count: int, rng: np.random.Generator) -> Cluster:
+def _joined(first: Cluster, second: Cluster, law: SizeLaw, count: int, rng: np.random.Generator) -> Cluster:
     """Union of two pieces at the distance of the law, or near it unless it is the whole of `count` spheres."""
     from rheoclast.generation._clusters import union
     from rheoclast.generation._contact_at_distance import contact_at_distance
@@ -159,7 +159,7 @@ def _joined(first: Cluster, second: Cluster, law: FractalLaw, count: int, rng: n
     raise _NoPlaceError
 
 
-def _distances(first: Cluster, second: Cluster, law: FractalLaw, exact: bool) -> FloatArray:
+def _distances(first: Cluster, second: Cluster, law: SizeLaw, exact: bool) -> FloatArray:
     """Distances of the centres of mass to try one after the other; if `exact`, that of the law or none."""
     from rheoclast.generation._clusters import extent
 
@@ -171,7 +171,7 @@ def _distances(first: Cluster, second: Cluster, law: FractalLaw, exact: bool) ->
     return np.minimum(distances, extent(first) + extent(second))
 
 
-def _squared_distance(first: Cluster, second: Cluster, law: FractalLaw) -> float:
+def _squared_distance(first: Cluster, second: Cluster, law: SizeLaw) -> float:
     """Γ² of the centres of mass of two pieces whose union obeys the law, negative if they are too large for it."""
     mass1, moment1 = _mass_and_moment(first)
     mass2, moment2 = _mass_and_moment(second)

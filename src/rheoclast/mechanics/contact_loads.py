@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 
 from rheoclast import _checks
-from rheoclast._checks import FloatArray
+from rheoclast._checks import FloatArray, IntArray
 from rheoclast.frames.springs import spring_frame
 from rheoclast.frames.statics import tree_loads
 from rheoclast.loads import SphereLoads
@@ -97,13 +97,8 @@ def contact_loads(
     by_statics = _by_statics(aggregate, bonds, method)
     stiffness = None if bonds is None else bonds.stiffness(len(aggregate.pairs))
     length = float(aggregate.spheres.radii.mean())
-    origin = aggregate.spheres.center_of_mass
-    geometry = (
-        (aggregate.spheres.centers - origin) / length,
-        aggregate.pairs,
-        (aggregate.contact_points - origin) / length,
-    )
-    cases, size = _dimensionless_cases(loads, length)
+    geometry = dimensionless_geometry(aggregate)
+    cases, size = dimensionless_cases(loads, length)
     if by_statics or stiffness is None:
         carried = tree_loads(*geometry, cases)
     else:
@@ -118,7 +113,13 @@ def contact_loads(
     )
 
 
-def _dimensionless_cases(loads: SphereLoads, length: float) -> tuple[FloatArray, FloatArray]:
+def dimensionless_geometry(aggregate: Aggregate) -> tuple[FloatArray, IntArray, FloatArray]:
+    """Centres (N, 3), pairs (C, 2) and contact points (C, 3), lengths in mean radii from the centre of mass."""
+    length, origin = float(aggregate.spheres.radii.mean()), aggregate.spheres.center_of_mass
+    return (aggregate.spheres.centers - origin) / length, aggregate.pairs, (aggregate.contact_points - origin) / length
+
+
+def dimensionless_cases(loads: SphereLoads, length: float) -> tuple[FloatArray, FloatArray]:
     """Load cases (N, 6, K) in units of each case's largest load, and that size (K,) in N."""
     cases = np.concatenate([loads.force, loads.torque / length], axis=-1)
     cases = cases.reshape(-1, *cases.shape[-2:]).transpose(1, 2, 0)

@@ -13,7 +13,7 @@ from rheoclast._threads import one_blas_thread
 from rheoclast.errors import GeometryError
 from rheoclast.stokes.basis import MultipoleBasis
 from rheoclast.stokes.mobility import Mobility, Progress
-from rheoclast.stokes.solver import Convergence, Solution, Solver, refuse_beyond_memory
+from rheoclast.stokes.solver import NOT_DEFINITE, Convergence, Solution, Solver, refuse_beyond_memory
 
 FEWEST_FOR_THREADS = 2_000
 LARGEST_THREADED_CHOLESKY = 15_000
@@ -78,10 +78,7 @@ def _cholesky(matrix: FloatArray) -> FloatArray:
     try:
         return cho_factor(matrix, lower=True, overwrite_a=True, check_finite=False)[0]
     except LinAlgError:
-        raise GeometryError(
-            "the mobility of these spheres is not positive definite, as happens when spheres overlap; "
-            "shrink the radii until they only touch"
-        ) from None
+        raise GeometryError(NOT_DEFINITE) from None
 
 
 def _backward(factor: FloatArray, forward: FloatArray, size: int) -> FloatArray:

@@ -26,9 +26,8 @@ from rheoclast.stokes.octree import Octree, Pairs, octree
 INTERPOLATION_ERROR = 1.0
 TRUNCATION = 0.3
 ACCURACIES = (1e-7, 1e-2)  # within which the rules of `_precision` were measured
-SINGLE_PRECISION = (
-    1e-5  # accuracy from which on 24-bit arithmetic, half the time and memory, adds a hundredth of the error
-)
+SINGLE_PRECISION = 1e-5
+"""Accuracy from which on 24-bit arithmetic, half the time and memory, adds a hundredth of the error."""
 Floats = NDArray[np.floating[Any]]
 
 LEAF_SIDES = (6, 8, 12, 16, 24)  # in largest radii; few, because the operators of each are made once and kept
@@ -226,4 +225,4 @@ def _raised(sources: Floats, work: list[tuple[Pairs, tuple[Floats, Floats]]]) ->
 
 def _times(rows: Floats, matrix: Floats) -> Floats:
     """Rows (..., R) times a matrix as one matrix product."""
-    return (rows.reshape(-1, rows.shape[-1]) @ matrix).reshape(*rows.shape[:-1], -1)
+    return (rows.reshape(-1, rows.shape[-1]) @ matrix).reshape(*rows.shape[:-1], matrix.shape[1])

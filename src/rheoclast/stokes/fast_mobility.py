@@ -1,4 +1,4 @@
-"""The mobility operator without its matrix: near pairs one by one, the rest through an octree."""
+"""The mobility operator without its matrix: near pairs by themselves, the rest through an octree."""
 
 from __future__ import annotations
 

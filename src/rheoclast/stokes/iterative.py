@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from rheoclast.stokes.block_rows import BlockRows
     from rheoclast.stokes.fast_mobility import FastMobility
 
+MODES_OF_ORDER_ONE = 3
 REACHES = (2.0, 3.0)
 """Length scales within which a sphere is conditioned on coarser ones, up to a thousand spheres and from 10⁵ on.
 
@@ -29,15 +30,15 @@ At a fixed reach the number of iterations grows slowly with that of the spheres,
 TOLERANCE_OF_ORDER_ONE = 3e-3
 """Tolerance of order 1, which only serves the error bar of order 2: a few per cent of the change between them.
 
-Changes to higher orders are smaller, about as the inverse fourth power of the order.
+For the bars of higher orders it is lower, as are the changes: about as the inverse fourth power of the order.
 """
 FAR_FIELD_SHARE = 2.0
 """Accuracy of the far field over the tolerance: loads err a third of it."""
-VECTORS = 16 * 11
+VECTORS = 20 * 11
 """Blocks of eleven vectors that are held at a time."""
 CONDITIONING_SPHERES = 25
 NEAR_SPHERES = 300
-"""Spheres in neighbouring leaves, and fewest for which there is an octree."""
+"""Spheres in neighbouring leaves, and fewest for which there may be an octree."""
 COEFFICIENTS_OF_A_BOX = 450
 """In single precision, at the accuracy that the default tolerance asks for."""
 HIGHEST_CLOSED_ORDER = 2
@@ -54,13 +55,15 @@ class BlockConjugateGradients(Solver):
     tolerance
         Largest residual of any right-hand side over its norm, both measured in the preconditioned space, where the
         operator is near the identity. Contact loads are then good to about the tolerance, as a share of the
-        largest; moments in long straight chains to some forty times it (see `tests/agreement/test_iterative.py`).
+        largest; moments in long straight chains to two hundred times it (see `tests/agreement/test_iterative.py`).
     """
 
     tolerance: float = 1e-5
 
     def __post_init__(self) -> None:
         _checks.positive("tolerance", self.tolerance)
+        if self.tolerance >= 1:
+            raise ValueError(f"tolerance: expected a share below 1, got {self.tolerance:g}")
 
     def solve(self, mobility: Mobility, velocities: FloatArray, progress: Progress | None = None) -> list[Solution]:
         """Solutions of the order asked for and, roughly, of the one or two below that its error bar takes.
@@ -71,6 +74,10 @@ class BlockConjugateGradients(Solver):
             If the memory that is free does not suffice.
         ArithmeticError
             If the iteration does not converge.
+        GeometryError
+            If the mobility is not positive definite, which happens when spheres overlap.
+        ValueError
+            For so few spheres that they have fewer modes than there are right-hand sides.
         """
         # Numba takes a second to import: only those who solve pay for it.
         from rheoclast.stokes.fast_mobility import fast_mobility
@@ -78,6 +85,11 @@ class BlockConjugateGradients(Solver):
 
         start = time.perf_counter()
         count, order = len(mobility.radii), mobility.basis.order
+        if MODES_OF_ORDER_ONE * count < velocities.shape[2]:
+            raise ValueError(
+                f"BlockConjugateGradients: {velocities.shape[2]} right-hand sides need at least "
+                f"{-(-velocities.shape[2] // MODES_OF_ORDER_ONE)} spheres, got {count}; use DenseCholesky"
+            )
         refuse_beyond_memory(self.memory(count, mobility.basis), count, order)
         operator = fast_mobility(mobility, min(max(FAR_FIELD_SHARE * self.tolerance, 1e-7), 1e-2))
         with one_blas_thread():  # its threads would wait in the way of those of the compiled sums
@@ -137,7 +149,8 @@ def _solution(
 
     def report(residual: float) -> None:
         if progress is not None:
-            progress(f"{name}, residual {residual:.0e}", min(1.0, math.log(residual) / math.log(tolerance)))
+            reached = math.log(max(residual, tolerance)) / math.log(tolerance)
+            progress(f"{name}, residual {residual:.0e}", max(0.0, reached))
 
     right_side = lower(np.ascontiguousarray(velocities[:, : basis.size]))
     solution, iterations, residual = conjugate_gradients(

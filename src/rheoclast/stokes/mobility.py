@@ -54,9 +54,9 @@ class Mobility:
 
     def matrix(self, progress: Progress | None = None) -> FloatArray:
         """The dense matrix (M, N, M, N), mode before sphere: its leading part is the matrix of every lower order."""
-        count, modes = len(self.radii), self.basis.size
         from rheoclast.stokes.pair_kernels import matrix_rows
 
+        count, modes = len(self.radii), self.basis.size
         matrix = np.empty((modes, count, modes, count))
         piece = max(ROWS_AT_A_TIME, count // 20)
         for first in range(0, count, piece):

@@ -176,7 +176,7 @@ def _add_blocks(
     for rank in range(1, order):
         powers_i[rank], powers_j[rank] = powers_i[rank - 1] * ratio_i, powers_j[rank - 1] * ratio_j
     squares_i, squares_j = ratio_i * ratio_i, ratio_j * ratio_j
-    value = np.empty(LANES)
+    value, scaled = np.empty(LANES), np.empty(LANES)
     for e in range(elements.direct.size):
         rank_i, rank_j = elements.ranks[0, e], elements.ranks[1, e]
         direct, extended = elements.direct[e], elements.extended[e]
@@ -188,7 +188,8 @@ def _add_blocks(
         left, right = turns[degree_i, elements.places[0, e]], turns[degree_j, elements.places[1, e]]
         for m in range(2 * degree_i + 1):
             line = out[elements.starts[0, e] + m]
-            scaled = value * left[m]
+            for lane in range(LANES):
+                scaled[lane] = value[lane] * left[m, lane]
             for n in range(2 * degree_j + 1):
                 column = elements.starts[1, e] + n
                 for lane in range(LANES):

@@ -13,10 +13,12 @@ from numpy.typing import NDArray
 
 from rheoclast._checks import FloatArray, IntArray
 from rheoclast._threads import one_blas_thread
+from rheoclast.errors import GeometryError
 from rheoclast.stokes.basis import MultipoleBasis
 from rheoclast.stokes.block_rows import BlockRows
 from rheoclast.stokes.pair_blocks import PairCoefficients
 from rheoclast.stokes.pair_kernels import AxialElements, lower_triangle
+from rheoclast.stokes.solver import NOT_DEFINITE
 
 
 def inverse_factor(
@@ -30,13 +32,21 @@ def inverse_factor(
         Spheres and modes, as for `Mobility`.
     reach
         A sphere is conditioned on coarser spheres within `reach` times its length scale.
+
+    Raises
+    ------
+    GeometryError
+        If the mobility of some neighbours is not positive definite, which happens when spheres overlap.
     """
     order, scale = coarse_to_fine(centers)
     starts, members = _conditioning_sets(centers, order, scale, reach)
     numbers = np.empty(len(members) * basis.size**2, np.float32)
     elements = PairCoefficients.of(basis).elements
     with one_blas_thread():
-        _block_columns(centers, radii, basis.self_mobility, elements, starts, members, numbers)
+        try:
+            _block_columns(centers, radii, basis.self_mobility, elements, starts, members, numbers)
+        except (SystemError, np.linalg.LinAlgError):  # how Numba tells of an error in a parallel loop
+            raise GeometryError(NOT_DEFINITE) from None
     lower = BlockRows(starts, members, numbers)
     return lower.transposed(), lower
 

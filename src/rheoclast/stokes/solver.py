@@ -9,6 +9,11 @@ from rheoclast._checks import FloatArray
 from rheoclast.stokes.basis import MultipoleBasis
 from rheoclast.stokes.mobility import Mobility, Progress
 
+NOT_DEFINITE = (
+    "the mobility of these spheres is not positive definite, as happens when spheres overlap; "
+    "shrink the radii until they only touch"
+)
+
 
 @dataclass(frozen=True)
 class Convergence:

@@ -7,7 +7,6 @@ from threadpoolctl import threadpool_info
 
 from rheoclast._threads import one_blas_thread
 from rheoclast.stokes import dense as dense_module
-from rheoclast.stokes import mobility as module
 from rheoclast.stokes.basis import MultipoleBasis
 from rheoclast.stokes.mobility import Mobility
 
@@ -25,13 +24,6 @@ def test_product_is_that_with_the_matrix(order):
     tractions = np.random.default_rng(order).normal(size=(5, mobility.basis.size, 3))
     expected = np.einsum("aibj,jbk->iak", mobility.matrix(), tractions)
     np.testing.assert_allclose(mobility @ tractions, expected, rtol=0, atol=1e-13 * np.abs(expected).max())
-
-
-@pytest.mark.parametrize("pairs", [1, 2, 3])
-def test_pieces_of_rows_make_no_difference(monkeypatch, pairs):
-    whole = operator(2).matrix()
-    monkeypatch.setattr(module, "PAIR_CHUNK_BYTES", pairs * 8 * 11**2)
-    np.testing.assert_array_equal(operator(2).matrix(), whole)
 
 
 def test_conjugate_gradients_can_replace_the_dense_solver():
