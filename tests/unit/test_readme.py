@@ -13,8 +13,10 @@ def test_python_blocks_run(monkeypatch, capsys):
     names: dict[str, object] = {}
     for block in blocks:
         exec(compile(block, "README.md", "exec"), names)
-    given, worst, rate, open_contacts, denser_contacts, dimension = map(float, capsys.readouterr().out.split())
+    printed = list(map(float, capsys.readouterr().out.split()))
+    given, worst, rate, split_rate, fragments, open_contacts, denser_contacts, dimension = printed
     assert 0 < given <= worst
-    assert rate > 0
+    assert 0 < rate <= split_rate
+    assert fragments == 2
     assert open_contacts < 2 < denser_contacts
     assert 1.5 < dimension < 2.1
