@@ -68,6 +68,13 @@ def not_negative(name: str, value: Any) -> float:
     return number
 
 
+def whole_number(name: str, value: Any, least: int) -> int:
+    """An integer of at least `least`."""
+    if isinstance(value, bool | np.bool_) or not isinstance(value, int | np.integer) or value < least:
+        raise ValueError(f"{name}: expected an integer of at least {least}, got {value!r}")
+    return int(value)
+
+
 def rotation_matrix(name: str, value: Any) -> FloatArray:
     """Proper orthogonal (3, 3) matrix, from a matrix or a `scipy.spatial.transform.Rotation`."""
     as_matrix = getattr(value, "as_matrix", None)

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 import rheoclast as rc
 from rheoclast.frames import cholesky, dissection, springs
-from rheoclast.particles.contacts import connected_parts
+from rheoclast.graphs import connected_parts
 
 BONDS = rc.Bonds(normal=1.0, tangential=0.8, bending=5.7e-3, twisting=7.7e-3)
 

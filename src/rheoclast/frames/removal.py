@@ -11,8 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.sparse import bsr_array, coo_array
-from scipy.sparse.csgraph import connected_components
+from scipy.sparse import bsr_array
 
 from rheoclast import _checks
 from rheoclast._checks import FloatArray, IntArray
@@ -21,6 +20,7 @@ from rheoclast.frames.dissection import dissection
 from rheoclast.frames.equilibrium import equilibrium_matrix
 from rheoclast.frames.springs import joint_stiffness
 from rheoclast.frames.updates import FactorizedFrame, Removal, factorized_frame
+from rheoclast.graphs import connected_parts
 
 UNBALANCED = 1e-9
 BALANCED = 1e-6
@@ -138,12 +138,13 @@ class LoadedFrame:
 
     def _updated(self, removal: Removal, removed: IntArray) -> LoadedFrame:
         """The state after a removal from the factorized frame; not in balance if the factors are used up."""
-        factorized = self._factorized
-        scaled = factorized.scaled_loads(self._carried, removal)
-        left = _left_over(factorized, self.loads, scaled)
-        if _residual(left, self.loads) > UNBALANCED:
-            scaled = factorized.refined_loads(scaled, left, removal)
-        return _state(self.frame, factorized, self.loads, removed, self._carried, removal, scaled)
+        factorized, carried = self._factorized, self._carried
+        scaled = factorized.scaled_loads(carried, removal)
+        state = _state(self.frame, factorized, self.loads, removed, carried, removal, scaled)
+        if state.residual <= UNBALANCED:
+            return state
+        refined = factorized.refined_loads(scaled, _left_over(factorized, self.loads, scaled), removal)
+        return _state(self.frame, factorized, self.loads, removed, carried, removal, refined)
 
 
 def removable_frame(nodes: ArrayLike, pairs: ArrayLike, points: ArrayLike, stiffness: ArrayLike) -> RemovableFrame:
@@ -169,7 +170,7 @@ def removable_frame(nodes: ArrayLike, pairs: ArrayLike, points: ArrayLike, stiff
     pairs, normals = _joined(pairs, nodes)
     points = _checks.real_array("points", points, (len(pairs), 3))
     root = joint_stiffness(normals, np.sqrt(_relative(stiffness, len(pairs))))
-    parts = _parts(len(nodes), pairs)
+    parts = connected_parts(len(nodes), pairs)
     if parts.any():
         raise CollapseError(f"expected a connected frame, got {parts.max() + 1} parts; load each by itself", parts)
     sides = equilibrium_matrix(nodes, pairs, points).T
@@ -241,16 +242,10 @@ def _refuse_resultant(state: LoadedFrame) -> None:
 
 
 def _refuse_parts(frame: RemovableFrame, removed: IntArray, chosen: IntArray) -> None:
-    parts = _parts(frame.elongation.shape[1] // 6, np.delete(frame.pairs, removed, axis=0))
+    parts = connected_parts(frame.elongation.shape[1] // 6, np.delete(frame.pairs, removed, axis=0))
     if parts.any():
         sizes = ", ".join(map(str, np.bincount(parts)))
         raise CollapseError(f"without {_named(chosen)} the frame falls into parts of {sizes} nodes", parts)
-
-
-def _parts(count: int, pairs: IntArray) -> IntArray:
-    """Connected part (N,) of every node."""
-    graph = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
-    return connected_components(graph, directed=False)[1].astype(np.intp)
 
 
 def _named(joints: IntArray) -> str:

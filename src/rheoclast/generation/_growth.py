@@ -8,7 +8,7 @@ import numpy as np
 
 from rheoclast import _checks
 from rheoclast._checks import FloatArray
-from rheoclast.generation._requests import seeded, whole_number
+from rheoclast.generation._requests import seeded
 from rheoclast.particles.aggregate import Aggregate
 from rheoclast.particles.spheres import Spheres
 
@@ -26,7 +26,7 @@ def begin(count: Any, radius: Any, spread: Any, seed: Any, *, least: int = 1) ->
         If `count` is not an integer of at least `least`, `radius` not positive, `spread`, the standard deviation of
         ln radius, not within 0 and 1, or `seed` not an integer of at least 0.
     """
-    count, rng = whole_number("count", count, least), seeded(seed)
+    count, rng = _checks.whole_number("count", count, least), seeded(seed)
     _checks.positive("radius", radius)
     spread = _checks.not_negative("spread", spread)
     if spread > WIDEST_SPREAD:

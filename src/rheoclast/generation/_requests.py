@@ -1,4 +1,4 @@
-"""What a caller may ask of a generator: whole numbers within bounds."""
+"""Random numbers from the seed that a caller asks for."""
 
 from __future__ import annotations
 
@@ -6,14 +6,9 @@ from typing import Any
 
 import numpy as np
 
-
-def whole_number(name: str, value: Any, least: int) -> int:
-    """An integer of at least `least`."""
-    if isinstance(value, bool | np.bool_) or not isinstance(value, int | np.integer) or value < least:
-        raise ValueError(f"{name}: expected an integer of at least {least}, got {value!r}")
-    return int(value)
+from rheoclast import _checks
 
 
 def seeded(seed: Any) -> np.random.Generator:
     """Random numbers that are the same for equal seeds."""
-    return np.random.default_rng(whole_number("seed", seed, 0))
+    return np.random.default_rng(_checks.whole_number("seed", seed, 0))

@@ -5,8 +5,8 @@ Y. Shen, B. T. Draine and E. T. Johnson, Astrophys. J. 689 (2008) 260.
 
 from __future__ import annotations
 
+from rheoclast import _checks
 from rheoclast.generation import _growth
-from rheoclast.generation._requests import whole_number
 from rheoclast.particles.aggregate import Aggregate
 
 MOST_MIGRATIONS = 2
@@ -40,7 +40,7 @@ def ballistic_migration(
         If a parameter is out of range.
     """
     radii, rng = _growth.begin(count, radius, spread, seed)
-    if whole_number("migrations", migrations, 1) > MOST_MIGRATIONS:
+    if _checks.whole_number("migrations", migrations, 1) > MOST_MIGRATIONS:
         raise ValueError(f"migrations: expected 1 or 2, got {migrations}; a sphere on three others rests")
     from rheoclast.generation._deposition import deposited
 

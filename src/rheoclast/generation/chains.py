@@ -12,7 +12,6 @@ from scipy.spatial.transform import Rotation
 from rheoclast import _checks
 from rheoclast._checks import FloatArray
 from rheoclast.errors import GeometryError
-from rheoclast.generation._requests import whole_number
 from rheoclast.generation._unit_spheres import unit_sphere_aggregate
 from rheoclast.particles.aggregate import Aggregate
 
@@ -44,7 +43,7 @@ def bent_chain(count: int, radius: float = 1.0, *, bend: float, torsion: float =
     GeometryError
         If the chain runs into itself.
     """
-    count = whole_number("count", count, 1)
+    count = _checks.whole_number("count", count, 1)
     bend = _checks.not_negative("bend", bend)
     torsion = float(_checks.real_array("torsion", torsion, ()))
     if bend > LARGEST_BEND * (1 + 1e-12):

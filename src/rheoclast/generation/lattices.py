@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from rheoclast import _checks
 from rheoclast._checks import FloatArray, IntArray
-from rheoclast.generation._requests import whole_number
 from rheoclast.generation._unit_spheres import unit_sphere_aggregate
 from rheoclast.particles.aggregate import Aggregate
 
@@ -87,7 +87,7 @@ def lattice_ball(lattice: str, count: int, radius: float = 1.0) -> Aggregate:
     through the centre normal to (1, √2, √3) are taken first, so that opposite sites enter one after the other and the
     ball stays balanced. It is connected, as every site touches one that is nearer to the centre.
     """
-    count = whole_number("count", count, 1)
+    count = _checks.whole_number("count", count, 1)
     shape = _lattice(lattice)
     # Spheres fill at least the share π/6 of space, so that this radius holds them all, and so do these indices.
     reach = np.ceil((2 + 2 * np.cbrt(count)) / np.array(shape.spacing)).astype(int) + 1
@@ -108,5 +108,5 @@ def _lattice(name: str) -> Lattice:
 def _block_shape(counts: Any) -> tuple[int, int, int]:
     if np.shape(counts) != (3,):
         raise ValueError(f"counts: expected three integers (row, rows, layers), got {counts!r}")
-    nx, ny, nz = (whole_number(f"counts[{axis}]", counts[axis], 1) for axis in range(3))
+    nx, ny, nz = (_checks.whole_number(f"counts[{axis}]", counts[axis], 1) for axis in range(3))
     return nx, ny, nz

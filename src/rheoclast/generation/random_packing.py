@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from rheoclast import _checks
-from rheoclast.generation._requests import seeded, whole_number
+from rheoclast.generation._requests import seeded
 from rheoclast.generation._unit_spheres import unit_sphere_aggregate
 from rheoclast.particles.aggregate import Aggregate
 
@@ -35,7 +35,7 @@ def random_packed_ball(count: int, radius: float = 1.0, seed: int = 0, *, disord
     ValueError
         If a parameter is out of range.
     """
-    count = whole_number("count", count, 1)
+    count = _checks.whole_number("count", count, 1)
     disorder = _checks.not_negative("disorder", disorder)
     rng = seeded(seed)
     centers = np.empty((count, 3))

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from rheoclast.generation._requests import whole_number
+from rheoclast import _checks
 from rheoclast.generation._unit_spheres import unit_sphere_aggregate
 from rheoclast.particles.aggregate import Aggregate
 
 
 def ring(count: int, radius: float = 1.0) -> Aggregate:
     """Ring of `count` ≥ 3 equal spheres, `radius` in m, in the plane z = 0, the first on the positive x axis."""
-    count = whole_number("count", count, 3)
+    count = _checks.whole_number("count", count, 3)
     angle = 2 * np.pi * np.arange(count) / count
     directions = np.stack([np.cos(angle), np.sin(angle), np.zeros(count)], axis=1)
     return unit_sphere_aggregate(directions / np.sin(np.pi / count), radius)
@@ -23,7 +23,7 @@ def cross(arm: int, radius: float = 1.0, arms: int = 4) -> Aggregate:
     Four `arms` lie along ± x and ± y, six along ± x, ± y and ± z. Sphere 0 is the centre; then follow the spheres of
     +x outwards, of −x, +y, …: 1 + arm · arms spheres.
     """
-    arm = whole_number("arm", arm, 1)
+    arm = _checks.whole_number("arm", arm, 1)
     if arms not in (4, 6):
         raise ValueError(f"arms: expected 4 (in a plane) or 6 (in space), got {arms!r}")
     directions = np.stack([np.eye(3), -np.eye(3)], axis=1).reshape(6, 3)[:arms]

@@ -93,17 +93,16 @@ def contact_loads(
     ArithmeticError
         If springs are so soft, or a chain so long (thousands of spheres in line), that balance is not reached.
     """
-    _check(aggregate, loads)
+    check_loads(aggregate, loads)
     by_statics = _by_statics(aggregate, bonds, method)
-    stiffness = None if bonds is None else bonds.stiffness(len(aggregate.pairs))
+    stiffness = None if bonds is None else dimensionless_stiffness(aggregate, bonds)
     length = float(aggregate.spheres.radii.mean())
     geometry = dimensionless_geometry(aggregate)
     cases, size = dimensionless_cases(loads, length)
     if by_statics or stiffness is None:
         carried = tree_loads(*geometry, cases)
     else:
-        stiffness = stiffness / [1, 1, length**2, length**2]
-        carried = spring_frame(*geometry, stiffness / stiffness[:, 0].mean()).joint_loads(cases)
+        carried = spring_frame(*geometry, stiffness).joint_loads(cases)
     shape = (*loads.force.shape[:-2], len(aggregate.pairs), 3)
     force, moment = size * carried[:, :3], size * length * carried[:, 3:]
     return ContactLoads(
@@ -117,6 +116,13 @@ def dimensionless_geometry(aggregate: Aggregate) -> tuple[FloatArray, IntArray, 
     """Centres (N, 3), pairs (C, 2) and contact points (C, 3), lengths in mean radii from the centre of mass."""
     length, origin = float(aggregate.spheres.radii.mean()), aggregate.spheres.center_of_mass
     return (aggregate.spheres.centers - origin) / length, aggregate.pairs, (aggregate.contact_points - origin) / length
+
+
+def dimensionless_stiffness(aggregate: Aggregate, bonds: Bonds) -> FloatArray:
+    """Stiffness (C, 4) of the contacts in mean radii and mean normal stiffnesses."""
+    length = float(aggregate.spheres.radii.mean())
+    stiffness = bonds.stiffness(len(aggregate.pairs)) / [1, 1, length**2, length**2]
+    return stiffness / stiffness[:, 0].mean()
 
 
 def dimensionless_cases(loads: SphereLoads, length: float) -> tuple[FloatArray, FloatArray]:
@@ -142,7 +148,8 @@ def _by_statics(aggregate: Aggregate, bonds: Bonds | None, method: Method) -> bo
     return method == "statics" or (method == "auto" and degree == 0)
 
 
-def _check(aggregate: Aggregate, loads: SphereLoads) -> None:
+def check_loads(aggregate: Aggregate, loads: SphereLoads) -> None:
+    """Refuse loads that do not belong to the spheres or do not balance, and a single sphere."""
     _checks.instance("aggregate", aggregate, Aggregate, "for instance Aggregate.touching(spheres)")
     _checks.instance("loads", loads, SphereLoads, "for instance response.loads(flow)")
     if len(aggregate.pairs) == 0:

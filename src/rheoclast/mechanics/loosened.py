@@ -5,13 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
-from rheoclast._checks import FloatArray, IntArray
+from rheoclast._checks import IntArray
 from rheoclast.frames.removal import LoadedFrame, removable_frame
 from rheoclast.loads import SphereLoads
 from rheoclast.mechanics.bonds import Bonds
-from rheoclast.mechanics.contact_loads import ContactLoads, contact_loads, dimensionless_cases, dimensionless_geometry
+from rheoclast.mechanics.contact_loads import (
+    ContactLoads,
+    check_loads,
+    dimensionless_cases,
+    dimensionless_geometry,
+    dimensionless_stiffness,
+)
 from rheoclast.particles.aggregate import Aggregate
 
 
@@ -70,9 +74,9 @@ def loosened(aggregate: Aggregate, loads: SphereLoads, bonds: Bonds) -> Loosened
     ValueError
         As `contact_loads`.
     """
-    contact_loads(aggregate, loads, bonds)
+    check_loads(aggregate, loads)
     cases, size = dimensionless_cases(loads, float(aggregate.spheres.radii.mean()))
-    frame = removable_frame(*dimensionless_geometry(aggregate), _dimensionless_stiffness(aggregate, bonds))
+    frame = removable_frame(*dimensionless_geometry(aggregate), dimensionless_stiffness(aggregate, bonds))
     return _loosened(aggregate, frame.loaded(cases), float(size[0]))
 
 
@@ -80,9 +84,3 @@ def _loosened(aggregate: Aggregate, state: LoadedFrame, size: float) -> Loosened
     carried, length = state.joint_loads[:, :, 0], float(aggregate.spheres.radii.mean())
     loads = ContactLoads(aggregate.normals, size * carried[:, :3], size * length * carried[:, 3:])
     return LoosenedAggregate(aggregate, loads, state, size)
-
-
-def _dimensionless_stiffness(aggregate: Aggregate, bonds: Bonds) -> FloatArray:
-    length = float(aggregate.spheres.radii.mean())
-    stiffness = bonds.stiffness(len(aggregate.pairs)) / np.array([1, 1, length**2, length**2])
-    return stiffness / stiffness[:, 0].mean()

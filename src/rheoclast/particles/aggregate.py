@@ -12,7 +12,8 @@ from scipy.spatial import cKDTree
 from rheoclast import _checks
 from rheoclast._checks import FloatArray, IntArray
 from rheoclast.errors import GeometryError
-from rheoclast.particles.contacts import CONTACT_TOLERANCE, connected_parts, near_pairs, surface_gaps
+from rheoclast.graphs import connected_parts
+from rheoclast.particles.contacts import CONTACT_TOLERANCE, near_pairs, surface_gaps
 from rheoclast.particles.spheres import Spheres
 
 

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from rheoclast._checks import FloatArray, IntArray
@@ -37,9 +35,3 @@ def surface_gaps(centers: FloatArray, radii: FloatArray, pairs: IntArray) -> Flo
     distance = np.linalg.norm(centers[second] - centers[first], axis=1)
     sum_of_radii = radii[first] + radii[second]
     return 2 * (distance - sum_of_radii) / sum_of_radii
-
-
-def connected_parts(count: int, pairs: IntArray) -> IntArray:
-    """Label (N,) of the connected part that each of `count` spheres belongs to, from contacts (C, 2)."""
-    graph = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
-    return connected_components(graph, directed=False)[1].astype(np.intp)

@@ -24,6 +24,9 @@ from rheoclast.vectors import LEVI_CIVITA, STRAIN_BASIS
 
 Kind = Literal["V", "W", "X"]
 
+HIGHEST_CLOSED_ORDER = 2
+"""Up to which pairs are summed in closed form (Faxén); blocks of higher orders are stored."""
+
 
 class Family(NamedTuple):
     """The 2n + 1 modes m = −n … n of one kind and degree n."""
@@ -80,8 +83,7 @@ class MultipoleBasis:
     order: int
 
     def __post_init__(self) -> None:
-        if isinstance(self.order, bool) or not isinstance(self.order, int | np.integer) or self.order < 1:
-            raise ValueError(f"order: expected an integer of at least 1, got {self.order!r}")
+        _checks.whole_number("order", self.order, least=1)
 
     @cached_property
     def families(self) -> tuple[Family, ...]:

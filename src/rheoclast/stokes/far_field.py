@@ -160,11 +160,16 @@ def far_field(
     tree = octree(centers, largest * leaf_side) if leaf_side else _fastest(centers, largest, basis, accuracy)
     sides_per_radius = float(leaf_side or round(tree.side / largest))
     operators = box_operators(basis.order, sides_per_radius, _precision(accuracy, sides_per_radius))
-    dtype = np.float32 if accuracy >= SINGLE_PRECISION else np.float64
+    dtype = arithmetic(accuracy)
     if not tree.levels:
         return FarField(tree, operators, np.empty((0, operators.rank), dtype), ())
     interactions = tuple(pairs for pairs in tree.interactions() if len(pairs.targets))
     return FarField(tree, operators, _coefficients(tree, operators, centers, radii, dtype), interactions)
+
+
+def arithmetic(accuracy: float) -> type[np.floating[Any]]:
+    """Single or double precision, whichever an accuracy asks for."""
+    return np.float32 if accuracy >= SINGLE_PRECISION else np.float64
 
 
 @cache

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from rheoclast._checks import FloatArray
-from rheoclast.stokes.basis import MultipoleBasis
-from rheoclast.stokes.far_field import SINGLE_PRECISION, FarField, far_field
+from rheoclast.stokes.basis import HIGHEST_CLOSED_ORDER, MultipoleBasis
+from rheoclast.stokes.far_field import FarField, arithmetic, far_field
 from rheoclast.stokes.mobility import Mobility
-from rheoclast.stokes.near_field import HIGHEST_CLOSED_ORDER, NearField, near_field
+from rheoclast.stokes.near_field import NearField, near_field
 
 FEWEST_IN_OCTREE = 3_000
 """Spheres from which on the octree pays at orders 1 and 2, whose direct sums are fast."""
@@ -66,7 +64,6 @@ def _octree_pays(mobility: Mobility) -> bool:
 
 
 def _with_far_field(mobility: Mobility, far: FarField | None, accuracy: float) -> FastMobility:
-    dtype = np.float32 if accuracy >= SINGLE_PRECISION else np.float64
     tree = None if far is None else far.tree
-    near = near_field(mobility.centers, mobility.radii, mobility.basis, tree, dtype)
+    near = near_field(mobility.centers, mobility.radii, mobility.basis, tree, arithmetic(accuracy))
     return FastMobility(mobility, near, far, accuracy)

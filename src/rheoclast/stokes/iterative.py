@@ -12,7 +12,7 @@ import numpy as np
 from rheoclast import _checks
 from rheoclast._checks import FloatArray
 from rheoclast._threads import one_blas_thread
-from rheoclast.stokes.basis import MultipoleBasis
+from rheoclast.stokes.basis import HIGHEST_CLOSED_ORDER, MultipoleBasis
 from rheoclast.stokes.conjugate_gradients import conjugate_gradients
 from rheoclast.stokes.mobility import Mobility, Progress
 from rheoclast.stokes.solver import Convergence, Solution, Solver, refuse_beyond_memory
@@ -41,8 +41,6 @@ NEAR_SPHERES = 300
 """Spheres in neighbouring leaves, and fewest for which there may be an octree."""
 COEFFICIENTS_OF_A_BOX = 450
 """In single precision, at the accuracy that the default tolerance asks for."""
-HIGHEST_CLOSED_ORDER = 2
-"""Whose blocks are not stored."""
 
 
 @final

@@ -10,7 +10,7 @@ from typing import Any, final
 import numpy as np
 
 from rheoclast._checks import FloatArray, IntArray
-from rheoclast.stokes.basis import MultipoleBasis
+from rheoclast.stokes.basis import HIGHEST_CLOSED_ORDER, MultipoleBasis
 from rheoclast.stokes.block_rows import BlockRows
 from rheoclast.stokes.direct_sum import force_velocities, pair_velocities
 from rheoclast.stokes.octree import Octree
@@ -18,8 +18,6 @@ from rheoclast.stokes.pair_blocks import PairCoefficients
 from rheoclast.stokes.pair_kernels import block_rows
 from rheoclast.stokes.solver import refuse_beyond_memory
 from rheoclast.vectors import STRAIN_BASIS
-
-HIGHEST_CLOSED_ORDER = 2
 
 PAIR_COST = {1: 20.0, 2: 100.0}
 """Time of a pair and right-hand side in closed form, over that of a multiplication and addition in a matrix product."""

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.distance import pdist, squareform
 
-from rheoclast.particles.contacts import connected_parts
+from rheoclast.graphs import connected_parts
 
 
 def _assert_exactly_touching(aggregate, count, radius):

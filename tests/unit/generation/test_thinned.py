@@ -8,7 +8,7 @@ import pytest
 import rheoclast as rc
 from rheoclast.generation.lattices import lattice_ball, lattice_block
 from rheoclast.generation.thinned import thinned, thinned_fcc_ball
-from rheoclast.particles.contacts import connected_parts
+from rheoclast.graphs import connected_parts
 from rheoclast.particles.morphology import mean_coordination
 
 

@@ -5,7 +5,8 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from rheoclast.particles.contacts import connected_parts, near_pairs, surface_gaps
+from rheoclast.graphs import connected_parts
+from rheoclast.particles.contacts import near_pairs, surface_gaps
 
 
 def gap(centers, radii, i, j):
