@@ -217,3 +217,34 @@ def test_refused_materials(name, value, message):
     values = {"youngs_modulus": 3.4e9, "poisson_ratio": 0.33, "work_of_adhesion": 0.1}
     with pytest.raises(ValueError, match=message):
         rc.Material(**(values | {name: value}))
+
+
+def test_limits_of_sliding_twisting_and_rolling():
+    """Twisting: the whole of a Hertzian contact slides at the moment ∫ μ p r dA, for the load P with S = μ P.
+
+    With p ∝ sqrt(1 − r²/c²) and ∫ p dA = P; rolling by 4 F ξ; both in proportion to the pull-off force.
+    """
+    radii, friction, distance = (0.5e-6, 0.8e-6), 0.3, 1e-9
+    bonds = rc.jkr_bonds(doublet(radii), EXAMPLE, friction=friction, rolling_distance=distance)
+    pull_off = bonds.tensile_strength
+    np.testing.assert_allclose(bonds.shear_strength, 2 * friction * pull_off)
+    np.testing.assert_allclose(bonds.bending_strength, 4 * distance * pull_off)
+    c = zero_load_radius(EXAMPLE, radii)
+    load = quad(lambda r: np.sqrt(1 - r**2) * 2 * np.pi * r, 0, 1)[0]
+    moment = quad(lambda r: np.sqrt(1 - r**2) * r * 2 * np.pi * r, 0, 1)[0]
+    np.testing.assert_allclose(bonds.twisting_strength, bonds.shear_strength * c * moment / load, rtol=1e-9)
+
+
+def test_measured_pull_off_changes_the_other_limits_in_proportion():
+    aggregate = doublet((0.5e-6, 0.5e-6))
+    law = rc.JKR(EXAMPLE, friction=0.2, rolling_distance=2e-9)
+    own, measured = law.bonds(aggregate), rc.MeasuredPullOff(1e-9, law).bonds(aggregate)
+    share = 1e-9 / own.tensile_strength
+    np.testing.assert_allclose(measured.strength(1), share[:, None] * own.strength(1))
+    assert np.isinf(rc.MeasuredPullOff(1e-9, rc.JKR(EXAMPLE)).bonds(aggregate).shear_strength).all()
+
+
+@pytest.mark.parametrize("name", ["friction", "rolling_distance"])
+def test_refused_limits(name):
+    with pytest.raises(ValueError, match=rf"^{name}: expected a positive number, got 0"):
+        rc.JKR(EXAMPLE, **{name: 0.0})

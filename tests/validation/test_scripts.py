@@ -73,3 +73,30 @@ def test_fractal_dimensions(load):
         published = script.FAMILIES[row["family"]][1]
         assert abs(row["dimension"] - published.dimension) < 2 * published.tolerance, row["family"]
     assert len(script.draw(ensembles).axes) == 1
+
+
+def test_breakup_modes(load, tmp_path, monkeypatch):
+    """Reduced: forty spheres, two clusters and three orientations of each family but one."""
+    script, figures = load("breakup_modes", "events"), load("breakup_modes", "breakup_modes")
+    rows = [
+        {"variant": "all", **{name: str(value) for name, value in row.items()}}
+        for family in script.FAMILIES
+        if family != "thinned fcc"  # forty spheres have fewer contacts
+        for seed in range(2)
+        for row in script.events(family, seed, script.VARIANTS["standard"], 3, False, 40)
+    ]
+    table = {(row["family"], row["flow"]): row for row in figures.modes(rows)}
+    for flow in script.FLOWS:
+        assert table["open tree", flow]["single_bond"] == table["dense tree", flow]["single_bond"] == 1
+        assert table["packed ball", flow]["single_bond"] < 0.2
+        assert table["packed ball", flow]["failures"] > 5
+        assert table["packed ball", flow]["first_radial"] > table["dense tree", flow]["first_radial"]
+        assert table["packed ball", flow]["surface"] > 3 * table["compacted 3 %", flow]["surface"]
+    assert len(figures.draw(list(table.values()), "coordination", "").axes) == 6
+    monkeypatch.setattr(script, "RESULTS", tmp_path)
+    monkeypatch.setattr(script, "SPHERES", 12)
+    first, second = script.waiting()[:2]
+    script.Task(first.family, first.seed, first.variant).run()
+    assert second in script.waiting()
+    assert first not in script.waiting()
+    assert [path.suffix for path in tmp_path.iterdir()] == [".csv"]

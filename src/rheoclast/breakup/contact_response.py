@@ -8,14 +8,12 @@ import numpy as np
 
 from rheoclast import _checks
 from rheoclast._checks import FloatArray
-from rheoclast.errors import GeometryError
 from rheoclast.flows import LinearFlow
-from rheoclast.hydrodynamics.response import RigidResponse
+from rheoclast.hydrodynamics.response import RigidResponse, refuse_other_spheres
 from rheoclast.loads import SphereLoads
 from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.contact_loads import ContactLoads, contact_loads
 from rheoclast.particles.aggregate import Aggregate
-from rheoclast.particles.spheres import Spheres
 from rheoclast.vectors import strain_components, strain_tensor
 
 
@@ -100,13 +98,8 @@ def contact_response(aggregate: Aggregate, response: RigidResponse, bonds: Bonds
     ValueError
         As `contact_loads`.
     """
-    if not _same_spheres(aggregate.spheres, response.spheres, 1e-9 * response.scales.length):
-        raise GeometryError(
-            f"the response was solved for other spheres ({len(response.spheres)}) than those of the aggregate "
-            f"({len(aggregate)}); solve rigid_response(aggregate.spheres, ...) first"
-        )
-    by_order = _from_coarse_to_fine(response)
-    unit = [each.strain_loads for each in by_order]
+    refuse_other_spheres(aggregate.spheres, response)
+    unit = [each.strain_loads for each in response.by_order]
     batch = SphereLoads(
         np.stack([each.force for each in unit]),
         np.stack([each.torque for each in unit]),
@@ -114,25 +107,9 @@ def contact_response(aggregate: Aggregate, response: RigidResponse, bonds: Bonds
     )
     carried = contact_loads(aggregate, batch, bonds)
     table = None
-    for each, force, moment in zip(by_order, carried.force, carried.moment, strict=True):
+    for each, force, moment in zip(response.by_order, carried.force, carried.moment, strict=True):
         table = ContactResponse(
             carried.normals, force.transpose(1, 2, 0), moment.transpose(1, 2, 0), each.order, coarser=table
         )
     assert table is not None
     return table
-
-
-def _same_spheres(ours: Spheres, theirs: Spheres, tolerance: float) -> bool:
-    return len(ours) == len(theirs) and all(
-        np.allclose(a, b, rtol=0, atol=tolerance)
-        for a, b in ((ours.centers, theirs.centers), (ours.radii, theirs.radii))
-    )
-
-
-def _from_coarse_to_fine(response: RigidResponse) -> list[RigidResponse]:
-    finer = []
-    each: RigidResponse | None = response
-    while each is not None:
-        finer.append(each)
-        each = each.coarser
-    return finer[::-1]

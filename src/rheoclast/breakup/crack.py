@@ -8,100 +8,41 @@ loads stay as they are: breaking a contact moves no sphere.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
+from rheoclast import _checks
 from rheoclast._checks import FloatArray, IntArray
+from rheoclast.breakup.event import Breakup, Failure
 from rheoclast.flows import LinearFlow
 from rheoclast.frames.removal import CollapseError
-from rheoclast.hydrodynamics.response import RigidResponse
+from rheoclast.hydrodynamics.response import RigidResponse, refuse_other_spheres
+from rheoclast.hydrodynamics.truncation import LOWEST_ORDER, expected_error
+from rheoclast.loads import SphereLoads
 from rheoclast.mechanics.bonds import Bonds
-from rheoclast.mechanics.criteria import CRITERIA, load_ratios
-from rheoclast.mechanics.loosened import LoosenedAggregate, loosened
+from rheoclast.mechanics.criteria.criterion import Criterion
+from rheoclast.mechanics.criteria.load_ratios import EVERY_LIMIT, load_ratios, refuse_without_strength
+from rheoclast.mechanics.loosened import LoosenableAggregate, LoosenedAggregate, loosenable
 from rheoclast.particles.aggregate import Aggregate
-from rheoclast.particles.morphology import depth
-from rheoclast.particles.spheres import Spheres
+from rheoclast.particles.morphology import depth, radial_position
 
 Rule = Literal["weakest", "overloaded"]
-ROUNDING = 1e-12
-
-
-@dataclass(frozen=True)
-class Failure:
-    """One contact that failed.
-
-    Attributes
-    ----------
-    contact
-        Its index in the aggregate.
-    pair
-        The spheres that it joined.
-    rate
-        Rate of the flow, 1/s, at which it fails as the load is then shared; it may be below that of failures before.
-    criterion
-        "tension", "shear", "bending" or "twisting".
-    margin
-        By how much the load ratio of the next contact is smaller, as a share of this one's. Where it is below the error
-        of the loads, the order of failures is not determined.
-    depth
-        Distance of the contact point from the centre of mass over the radius of gyration.
-    """
-
-    contact: int
-    pair: tuple[int, int]
-    rate: float
-    criterion: str
-    margin: float
-    depth: float
-
-
-@dataclass(frozen=True, eq=False)
-class Breakup:
-    """How an aggregate breaks in a flow. Made by `break_up`.
-
-    Attributes
-    ----------
-    failures
-        In their order.
-    fragments
-        The parts after the last failure, the largest first; the whole aggregate if it does not split.
-    spheres
-        Indices (n,) of each fragment's spheres in the aggregate.
-    """
-
-    failures: tuple[Failure, ...]
-    fragments: tuple[Aggregate, ...]
-    spheres: tuple[IntArray, ...]
-
-    @property
-    def splits(self) -> bool:
-        """Whether it breaks at any rate: not if all contacts that are left are compressed."""
-        return len(self.fragments) > 1
-
-    @property
-    def initiation_rate(self) -> float:
-        """Rate, 1/s, at which the first contact fails; infinite if none does."""
-        return self.failures[0].rate if self.failures else np.inf
-
-    @property
-    def breakup_rate(self) -> float:
-        """Rate, 1/s, at which the aggregate splits: the largest of all failures; infinite if it does not."""
-        return max(failure.rate for failure in self.failures) if self.splits else np.inf
-
-    @property
-    def is_single_bond(self) -> bool:
-        """Whether one failure splits it."""
-        return self.splits and len(self.failures) == 1
-
-    def near_ties(self, tolerance: float) -> tuple[int, ...]:
-        """Positions of failures whose margin is below a tolerance, such as the relative error of the loads."""
-        return tuple(k for k, failure in enumerate(self.failures) if failure.margin < tolerance)
+ROUNDING = 1e-9  # of load ratios: what balance is held to
+NEGLIGIBLE = 1e-8  # of the largest load ratio, compression included; balance is held to a tenth of it
+ORDERS_COMPARED = 3
 
 
 def break_up(
-    aggregate: Aggregate, response: RigidResponse, bonds: Bonds, flow: LinearFlow, rule: Rule = "weakest"
+    aggregate: Aggregate,
+    response: RigidResponse,
+    bonds: Bonds,
+    flow: LinearFlow,
+    rule: Rule = "weakest",
+    criterion: Criterion = EVERY_LIMIT,
+    up_to: float = np.inf,
 ) -> Breakup:
     """Failures in a flow of given kind and orientation as its rate is raised from zero, up to the split.
 
@@ -114,73 +55,145 @@ def break_up(
     bonds
         Stiffness and strength of the contacts.
     flow
-        Only its kind and orientation matter. For the worst orientation pass `worst_initiation(...).flow`.
+        Only its kind and orientation matter. For the worst orientation pass `worst_initiation(...).flow`, for the worst
+        along the aggregate's own rotation `orbit_initiation(...).flow`.
     rule
         "weakest": contacts fail one at a time, the most overloaded first. "overloaded": all whose load reaches their
         strength at the rate that is reached fail at once.
+    criterion
+        When a contact fails. By default each load has its own limit, and strengths that are infinite do not count: with
+        JKR contacts, tension against pull-off.
+    up_to
+        Rate of the flow, 1/s, above which it is not raised. If it does not split below, the aggregate stays whole
+        with the contacts that are left.
 
     Raises
     ------
     ValueError
-        If the flow has no strain, no contact has a strength, the rule is not known, or as `contact_loads`.
+        If the flow has no strain, no contact has a strength, the rule is not known, the contacts do not hold the
+        aggregate because the stiffnesses differ by too many decades, or as `contact_loads`.
+    GeometryError
+        If the response belongs to other spheres.
+    """
+    return next(break_up_each(aggregate, response, bonds, [flow], rule, criterion, up_to))
+
+
+def break_up_each(
+    aggregate: Aggregate,
+    response: RigidResponse,
+    bonds: Bonds,
+    flows: Iterable[LinearFlow],
+    rule: Rule = "weakest",
+    criterion: Criterion = EVERY_LIMIT,
+    up_to: float = np.inf,
+) -> Iterator[Breakup]:
+    """`break_up` in every one of several flows or orientations, one after the other; the contacts are assembled once.
+
+    For all orientations alike pass ``flow.rotated(each) for each in random_orientations(100, seed=1)``.
     """
     if rule not in ("weakest", "overloaded"):
         raise ValueError(f"rule: expected 'weakest' or 'overloaded', got {rule!r}")
+    _checks.instance("aggregate", aggregate, Aggregate, "for instance Aggregate.touching(spheres)")
+    _checks.instance("bonds", bonds, Bonds, "for instance jkr_bonds(aggregate, material)")
+    _checks.instance("criterion", criterion, Criterion, "for instance Tension()")
+    refuse_other_spheres(aggregate.spheres, response)
+    refuse_without_strength(bonds, criterion)
+    bonds.strength(len(aggregate.pairs))
+    limit = up_to if up_to == np.inf else _checks.positive("up_to", up_to)
+    intact = loosenable(aggregate, bonds)
+    places = np.stack([place(aggregate, aggregate.contact_points) for place in (radial_position, depth)], axis=1)
+    setting = _Setting(aggregate, bonds, criterion, rule, limit, response.order, intact, places)
+    return (_event(setting, response, flow) for flow in flows)
+
+
+@dataclass(frozen=True, eq=False)
+class _Setting:
+    """What all events of an aggregate have in common."""
+
+    aggregate: Aggregate
+    bonds: Bonds
+    criterion: Criterion
+    rule: Rule
+    up_to: float
+    order: int | None
+    intact: LoosenableAggregate
+    places: FloatArray
+
+    def ratios(self, state: LoosenedAggregate) -> FloatArray:
+        """Load over strength (orders, C, criteria), zero where the contact is lost."""
+        return load_ratios(state.loads, self.bonds, self.criterion)
+
+
+def _event(setting: _Setting, response: RigidResponse, flow: LinearFlow) -> Breakup:
+    _checks.instance("flow", flow, LinearFlow, "for instance simple_shear(1e5)")
     if not np.linalg.norm(flow.strain_rate) > 0:
         raise ValueError("flow: expected a strain rate that is not zero, got none; a rotation loads no contact")
-    if not np.isfinite(bonds.strength(len(aggregate.pairs))).any():
-        raise ValueError("bonds: expected a strength of some contact, got none; give for instance tensile_strength")
-    state = loosened(aggregate, response.loads(flow), bonds)
-    depths = depth(aggregate, aggregate.contact_points)
+    state = setting.intact.loaded(_loads_by_order(response, flow))
     failures: list[Failure] = []
-    reached = 0.0
+    ratios = setting.ratios(state)
+    reached, nothing = 0.0, NEGLIGIBLE * float(np.abs(ratios[-1]).max())
     while True:
-        ratios = _ratios(state, bonds)
-        largest = ratios.max(axis=1)
-        if not largest.max(initial=0.0) > 0:
-            return _result(aggregate, failures, np.zeros(len(aggregate), np.intp))
-        reached = max(reached, 1 / largest.max())
-        failing = _failing(largest, reached, rule)
-        failures += [_failure(aggregate, contact, ratios, flow.rate, depths) for contact in failing.tolist()]
+        largest = ratios[-1].max(axis=1)
+        if largest.max() <= nothing or flow.rate / largest.max() > setting.up_to:
+            return _breakup(setting.aggregate, failures, np.zeros(len(setting.aggregate), np.intp))
+        reached = max(reached, flow.rate / float(largest.max()))
+        failing = _failing(largest, reached / flow.rate, setting.rule)
+        failures += [_failure(setting, contact, ratios, flow.rate, reached) for contact in failing.tolist()]
         try:
             state = state.without(failing)
         except CollapseError as collapse:
-            return _result(aggregate, failures, collapse.parts)
+            return _breakup(setting.aggregate, failures, collapse.parts)
+        ratios = setting.ratios(state)
 
 
-def _ratios(state: LoosenedAggregate, bonds: Bonds) -> FloatArray:
-    """Load over strength (C, 4), minus infinity where the contact is lost."""
-    ratios = load_ratios(state.loads, bonds)
-    ratios[state.lost] = -np.inf
-    return ratios
+def _loads_by_order(response: RigidResponse, flow: LinearFlow) -> SphereLoads:
+    """Loads (orders, N, 3) of the last orders that were solved, the finest last."""
+    each = [order.loads(flow) for order in response.by_order[-ORDERS_COMPARED:]]
+    return SphereLoads(
+        np.stack([loads.force for loads in each]),
+        np.stack([loads.torque for loads in each]),
+        max(loads.rounding for loads in each),
+    )
 
 
 def _failing(largest: FloatArray, reached: float, rule: Rule) -> IntArray:
     """Contacts that fail now, the most overloaded first."""
-    order = np.argsort(-largest, kind="stable")
     if rule == "weakest":
-        return order[:1]
+        return np.array([largest.argmax()])
+    order = np.argsort(-largest, kind="stable")
     return order[: int(np.count_nonzero(largest * reached >= 1 - ROUNDING))]
 
 
-def _failure(aggregate: Aggregate, contact: int, ratios: FloatArray, rate: float, depths: FloatArray) -> Failure:
-    own = float(ratios[contact].max())
-    others = np.delete(ratios, contact, axis=0).max(initial=0.0)
-    first, second = aggregate.pairs[contact].tolist()
-    criterion = CRITERIA[int(ratios[contact].argmax())]
-    return Failure(contact, (first, second), rate / own, criterion, max(0.0, 1 - others / own), float(depths[contact]))
+def _failure(setting: _Setting, contact: int, ratios: FloatArray, rate: float, reached: float) -> Failure:
+    """The failure of a contact at load ratios (orders, C, criteria)."""
+    own = float(ratios[-1, contact].max())
+    others = np.flatnonzero(ratios[-1].max(axis=1) > 0)
+    others = others[others != contact]
+    lead = ratios[:, contact].max(axis=1)[:, None] - ratios[:, others].max(axis=2)
+    first, second = setting.aggregate.pairs[contact].tolist()
+    radial, below = setting.places[contact].tolist()
+    return Failure(
+        contact=contact,
+        pair=(first, second),
+        rate=rate / own,
+        reached=reached,
+        criterion=setting.criterion.parts[int(ratios[-1, contact].argmax())].name,
+        margin=max(0.0, float(lead[-1].min(initial=own)) / own),
+        rivals=_rivals(others, lead / own, setting.order),
+        radial_position=radial,
+        depth=below,
+    )
 
 
-def _result(aggregate: Aggregate, failures: list[Failure], parts: IntArray) -> Breakup:
-    kept = np.delete(aggregate.pairs, [failure.contact for failure in failures], axis=0)
+def _rivals(others: IntArray, lead: FloatArray, order: int | None) -> tuple[int, ...] | None:
+    """Contacts whose load ratio is smaller by a lead (orders, contacts), relative, within its expected error."""
+    if order is None or len(lead) < max(min(order, ORDERS_COMPARED), LOWEST_ORDER):
+        return None
+    return tuple(others[lead[-1] <= expected_error(list(lead), order, axis=()) + ROUNDING].tolist())
+
+
+def _breakup(aggregate: Aggregate, failures: list[Failure], parts: IntArray) -> Breakup:
     members = sorted((np.flatnonzero(parts == part) for part in range(parts.max() + 1)), key=lambda part: -len(part))
-    return Breakup(tuple(failures), tuple(_fragment(aggregate.spheres, kept, each) for each in members), tuple(members))
-
-
-def _fragment(spheres: Spheres, pairs: IntArray, members: IntArray) -> Aggregate:
-    """The aggregate of some spheres and the contacts among them."""
-    number = np.full(len(spheres), -1)
-    number[members] = np.arange(len(members))
-    inside = pairs[(number[pairs] >= 0).all(axis=1)]
-    part = Spheres(spheres.centers[members], spheres.radii[members], spheres.overlap_tolerance)
-    return Aggregate(part, number[inside])
+    between = np.flatnonzero(np.ptp(parts[aggregate.pairs], axis=1))
+    released = np.setdiff1d(between, [failure.contact for failure in failures])
+    return Breakup(aggregate, tuple(failures), tuple(members), released)

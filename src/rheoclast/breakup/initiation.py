@@ -9,7 +9,8 @@ import numpy as np
 from rheoclast.breakup.contact_response import ContactResponse
 from rheoclast.flows import LinearFlow
 from rheoclast.mechanics.bonds import Bonds
-from rheoclast.mechanics.criteria import CRITERIA, load_ratios
+from rheoclast.mechanics.criteria.criterion import Criterion
+from rheoclast.mechanics.criteria.load_ratios import EVERY_LIMIT, load_ratios
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,7 +22,7 @@ class Initiation:
     contact
         Index of the contact, or None if no rate breaks any (every contact is compressed).
     criterion
-        "tension", "shear", "bending" or "twisting"; None with the contact.
+        `Criterion.name` of the criterion that is met; None with the contact.
     rate
         Rate of the flow at which it fails, 1/s, quoted as `LinearFlow.rate`; infinite if none fails.
     flow
@@ -34,11 +35,13 @@ class Initiation:
     flow: LinearFlow
 
 
-def initiation(table: ContactResponse, bonds: Bonds, flow: LinearFlow) -> Initiation:
-    """First failure in the given orientation, by all criteria for which the bonds have a strength."""
-    ratios = load_ratios(table.loads(flow), bonds)
-    contact, criterion = np.unravel_index(int(ratios.argmax()), ratios.shape)
-    return _first(int(contact), CRITERIA[criterion], float(ratios.max()), flow)
+def initiation(
+    table: ContactResponse, bonds: Bonds, flow: LinearFlow, criterion: Criterion = EVERY_LIMIT
+) -> Initiation:
+    """First failure in the given orientation."""
+    ratios = load_ratios(table.loads(flow), bonds, criterion)
+    contact, part = np.unravel_index(int(ratios.argmax()), ratios.shape)
+    return _first(int(contact), criterion.parts[part].name, float(ratios.max()), flow)
 
 
 def worst_initiation(table: ContactResponse, bonds: Bonds, flow: LinearFlow) -> Initiation:

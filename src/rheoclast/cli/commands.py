@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import io
-import json
 import sys
 from collections.abc import Sequence
 from importlib import resources
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -16,6 +15,7 @@ import rheoclast
 from rheoclast import io as files
 from rheoclast.cli import options, results
 from rheoclast.cli.analysis import Analysis, analyse
+from rheoclast.cli.breaking import break_command
 from rheoclast.cli.console import INTERRUPTED, plain_speech, progress_bar, screen, tell_memory
 from rheoclast.cli.generation import generate
 from rheoclast.cli.presentation import show_shape, show_stress
@@ -68,6 +68,7 @@ def stress(
     radius: options.Radius = None,
     tolerance: options.Tolerance = CONTACT_TOLERANCE,
     overlap_tolerance: options.OverlapTolerance = CONTACT_TOLERANCE,
+    contacts: options.Contacts = None,
     flow: options.FlowName = options.Flow.shear,
     rate: options.Rate = None,
     gradient: options.Gradient = None,
@@ -103,6 +104,7 @@ def stress(
         radius=radius,
         tolerance=tolerance,
         overlap_tolerance=overlap_tolerance,
+        contacts=contacts,
     )
     chosen_model = options.chosen_model(model, order, accuracy)
     tell_memory(len(aggregate), chosen_model.memory(len(aggregate)))
@@ -119,7 +121,7 @@ def _report(
     units = Units.dimensionless(analysis) if dimensionless else Units()
     summary = {"rheoclast": rheoclast.__version__, "file": file, **stress_summary(analysis, units)}
     summary["flow"]["name"] = flow
-    text = _json(summary)
+    text = results.json_text(summary)
     if output is not None:
         results.write_results(output, analysis, text, units)
     if as_json:
@@ -130,13 +132,6 @@ def _report(
         screen.print(f"written to {output}: {', '.join(results.FILES)}", soft_wrap=True, markup=False)
 
 
-def _json(summary: dict[str, Any]) -> str:
-    try:
-        return json.dumps(summary, indent=2, allow_nan=False)
-    except ValueError:
-        raise ArithmeticError("a result is too large for a number; check rate, viscosity and strength") from None
-
-
 @app.command()
 def info(
     file: options.File,
@@ -145,6 +140,7 @@ def info(
     radius: options.Radius = None,
     tolerance: options.Tolerance = CONTACT_TOLERANCE,
     overlap_tolerance: options.OverlapTolerance = CONTACT_TOLERANCE,
+    contacts: options.Contacts = None,
     model: options.ModelName = options.Model.stokesian,
     order: options.Order = "2",
     accuracy: options.Accuracy = 0.02,
@@ -162,6 +158,7 @@ def info(
         radius=radius,
         tolerance=tolerance,
         overlap_tolerance=overlap_tolerance,
+        contacts=contacts,
     )
     length, name = (float(aggregate.spheres.radii.mean()), "a") if dimensionless else (1.0, "m")
     chosen_model = options.chosen_model(model, order, accuracy)
@@ -175,11 +172,13 @@ def info(
         "intrinsic_viscosity": response.intrinsic_viscosity,
     }
     if as_json:
-        typer.echo(_json({"rheoclast": rheoclast.__version__, "file": str(file), **summary, "units": {"length": name}}))
+        named = {"rheoclast": rheoclast.__version__, "file": str(file)}
+        typer.echo(results.json_text({**named, **summary, "units": {"length": name}}))
     else:
         show_shape(str(file), summary, name)
 
 
+app.command("break")(break_command)
 app.add_typer(generate, name="generate")
 
 

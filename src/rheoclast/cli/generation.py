@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from inspect import Parameter, Signature, signature
 from pathlib import Path
@@ -18,6 +17,7 @@ from rheoclast.cli.tables import shape_summary
 from rheoclast.generation.families import FAMILIES, Family
 from rheoclast.generation.lattices import LATTICES
 from rheoclast.io.files import writable
+from rheoclast.particles.aggregate import Aggregate
 
 RADIUS = 0.5e-6
 """Default radius in m; that of the families, one metre, suits calculations without units."""
@@ -77,13 +77,15 @@ def _command(name: str, family: Family) -> Callable[..., None]:
         path = Path(f"{name}.dat") if output is None else output
         writable(path, overwrite)  # refused now rather than after the growth
         aggregate = family(**parameters)
-        if name.startswith("thinned") and path.suffix != ".vtp":
-            warnings.warn(
-                f"{path} has no place for contacts: once read, all spheres that touch are joined", stacklevel=2
-            )
+        contacts = path.with_name(f"{path.stem}_contacts.csv") if name.startswith("thinned") else None
+        if contacts is not None:
+            writable(contacts, overwrite)
         files.write(path, aggregate, format=file_format, overwrite=overwrite)
+        read_with = _keep_contacts(contacts, aggregate, overwrite)
         show_shape(str(path), shape_summary(aggregate), "m")
-        screen.print(f"next: rheoclast stress {path} --rate 1e5 --output results", soft_wrap=True, markup=False)
+        screen.print(
+            f"next: rheoclast stress {path}{read_with} --rate 1e5 --output results", soft_wrap=True, markup=False
+        )
 
     example = f"rheoclast generate {name} {EXAMPLES.get(name, '100')}"
     purpose = (family.__doc__ or "").splitlines()[0].replace("`", "")
@@ -93,6 +95,15 @@ def _command(name: str, family: Family) -> Callable[..., None]:
     command.__signature__ = Signature([*taken, *own])  # type: ignore[attr-defined]
     command.__annotations__ = {each.name: each.annotation for each in (*taken, *own)}
     return command
+
+
+def _keep_contacts(path: Path | None, aggregate: Aggregate, overwrite: bool) -> str:
+    """Write the contacts of an aggregate in which not all spheres that touch are joined; the option that reads them."""
+    if path is None:
+        return ""
+    i, j = aggregate.pairs.T
+    files.write_table(path, {"i": i, "j": j}, overwrite)
+    return f" --contacts {path}"
 
 
 def _parameter(given: Parameter) -> Parameter:

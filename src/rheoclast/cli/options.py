@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -14,6 +15,12 @@ from rheoclast.hydrodynamics.exposed_area import ExposedArea
 from rheoclast.hydrodynamics.free_draining import FreeDraining
 from rheoclast.hydrodynamics.model import HydrodynamicModel
 from rheoclast.hydrodynamics.stokesian_dynamics import StokesianDynamics
+from rheoclast.mechanics.criteria.combined import Combined
+from rheoclast.mechanics.criteria.criterion import Criterion
+from rheoclast.mechanics.criteria.rolling import Rolling
+from rheoclast.mechanics.criteria.sliding import Sliding
+from rheoclast.mechanics.criteria.tension import Tension
+from rheoclast.mechanics.criteria.twisting import Twisting
 from rheoclast.mechanics.laws.jkr import JKR
 from rheoclast.mechanics.laws.law import ContactLaw
 from rheoclast.mechanics.laws.measured_pull_off import MeasuredPullOff
@@ -38,6 +45,42 @@ class Model(StrEnum):
     exposed_area = "exposed-area"
 
 
+class CriterionChoice(StrEnum):
+    """Criteria by name."""
+
+    every_limit = "every-limit"
+    tension = "tension"
+    sliding = "sliding"
+    rolling = "rolling"
+    twisting = "twisting"
+    combined = "combined"
+
+
+class RuleChoice(StrEnum):
+    """Rules of failure."""
+
+    weakest = "weakest"
+    overloaded = "overloaded"
+
+
+class OrientationChoice(StrEnum):
+    """How an aggregate meets the flow."""
+
+    given = "given"
+    worst = "worst"
+    orbit = "orbit"
+    random = "random"
+
+
+CRITERIA: Mapping[CriterionChoice, Callable[[float], Criterion]] = {
+    CriterionChoice.every_limit: lambda friction: Tension() | Sliding(friction) | Rolling() | Twisting(),
+    CriterionChoice.tension: lambda friction: Tension(),
+    CriterionChoice.sliding: Sliding,
+    CriterionChoice.rolling: lambda friction: Rolling(),
+    CriterionChoice.twisting: lambda friction: Twisting(),
+    CriterionChoice.combined: lambda friction: Combined(),
+}
+
 FLOWS = {
     Flow.shear: simple_shear,
     Flow.uniaxial: uniaxial_extension,
@@ -46,6 +89,7 @@ FLOWS = {
 }
 
 AGGREGATE, FLOW, LIQUID, BONDS, OUTPUT = "Aggregate", "Flow", "Liquid and model", "Contacts", "Output"
+BREAKUP = "Breakup"
 
 File = Annotated[
     Path, typer.Argument(help="Spheres: text (x y z r), CSV, XYZ, LAMMPS dump or data.", show_default=False)
@@ -71,6 +115,14 @@ Tolerance = Annotated[
 ]
 OverlapTolerance = Annotated[
     float, typer.Option(help="Largest overlap that counts as touching, in mean radii.", rich_help_panel=AGGREGATE)
+]
+Contacts = Annotated[
+    Path | None,
+    typer.Option(
+        help="Table with columns i and j, the spheres in contact; by default all that touch.",
+        rich_help_panel=AGGREGATE,
+        show_default=False,
+    ),
 ]
 FlowName = Annotated[Flow, typer.Option("--flow", help="Kind of flow.", rich_help_panel=FLOW)]
 Rate = Annotated[
@@ -110,6 +162,43 @@ Stiffness = Annotated[
         show_default=False,
     ),
 ]
+Friction = Annotated[
+    float | None,
+    typer.Option(help="Coefficient of friction: limits shear and twisting too.", rich_help_panel=BONDS),
+]
+RollingDistance = Annotated[
+    float | None,
+    typer.Option(
+        help="Distance in m by which a contact rolls before it yields: limits bending too.", rich_help_panel=BONDS
+    ),
+]
+CriterionName = Annotated[
+    CriterionChoice, typer.Option("--criterion", help="When a contact fails.", rich_help_panel=BREAKUP)
+]
+RuleName = Annotated[
+    RuleChoice,
+    typer.Option("--rule", help="The weakest contact fails first, or all overloaded at once.", rich_help_panel=BREAKUP),
+]
+OrientationName = Annotated[
+    OrientationChoice,
+    typer.Option(
+        "--orientation",
+        help="As in the file, the worst for tension, the worst along the free rotation, or a random one.",
+        rich_help_panel=BREAKUP,
+    ),
+]
+Seed = Annotated[int, typer.Option(help="Of random orientations.", rich_help_panel=BREAKUP)]
+UpTo = Annotated[
+    float | None,
+    typer.Option(help="Rate in 1/s above which the flow is not raised.", rich_help_panel=BREAKUP, show_default=False),
+]
+WithCascade = Annotated[
+    bool,
+    typer.Option(
+        "--cascade", help="Break the fragments too, at the rate of the flow, until all hold.", rich_help_panel=BREAKUP
+    ),
+]
+Animation = Annotated[bool, typer.Option("--animation", help="Write crack.gif too.", rich_help_panel=OUTPUT)]
 Output = Annotated[
     Path | None,
     typer.Option(help="Folder for tables, VTP, XYZ, picture and summary.", rich_help_panel=OUTPUT, show_default=False),
@@ -184,12 +273,18 @@ def chosen_material(
 
 
 def chosen_law(
-    material: Material, pull_off: float | None, stiffness: tuple[float, float, float, float] | None
+    material: Material,
+    pull_off: float | None,
+    stiffness: tuple[float, float, float, float] | None,
+    friction: float | None = None,
+    rolling_distance: float | None = None,
 ) -> ContactLaw:
     """JKR contacts of the material, or a measured pull-off force with JKR or explicit stiffness."""
     if stiffness is not None:
         if pull_off is None:
             raise ValueError("--stiffness: explicit stiffness needs the strength too; add --pull-off")
+        if friction is not None or rolling_distance is not None:
+            raise ValueError("--friction, --rolling-distance: explicit stiffness has no law for them; leave one out")
         return Uniform(*stiffness, tensile_strength=pull_off)
-    law = JKR(material)
+    law = JKR(material, friction, rolling_distance)
     return law if pull_off is None else MeasuredPullOff(pull_off, law)

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Sequence
 from typing import Any
 
 from rich.markup import escape
 from rich.table import Table
 
+from rheoclast.breakup.event import Breakup
 from rheoclast.cli.console import screen
 from rheoclast.view.quantities import quoted
 
+MOST_FAILURES, MOST_SIZES = 10, 12
 PREFIXED = ("m", "N", "N m")
 
 
@@ -36,6 +40,63 @@ def show_stress(name: str, summary: dict[str, Any]) -> None:
     table.add_section()
     _failure_rows(table, "worst orientation", summary["worst_orientation"], units)
     screen.print(table)
+
+
+def show_breakup(name: str, summary: dict[str, Any], breakup: Breakup) -> None:
+    """Print how an aggregate broke, and its first failures."""
+    table = _table(name)
+    table.add_row("spheres, contacts", f"{summary['spheres']}, {summary['contacts']}")
+    table.add_row("coordination", f"mean {summary['mean_coordination']:.3g}")
+    table.add_row("orientation", summary["orientation"])
+    table.add_section()
+    table.add_row("outcome", _outcome(breakup))
+    if breakup.failures:
+        table.add_row("initiation rate", f"[bold]{breakup.initiation_rate:.4g} 1/s[/bold]")
+    if breakup.splits:
+        table.add_row("breakup rate", f"[bold]{breakup.breakup_rate:.4g} 1/s[/bold]")
+        table.add_row("fracture surface", f"{summary['surface']} of {summary['failures']} failed contacts")
+        table.add_row("fragments", _sizes(summary["fragments"]))
+    if summary["inwardness"] is not None:
+        table.add_row("inwardness", f"{summary['inwardness']:+.2f} (1: from the outside in, 0: no order)")
+    if summary["near_ties"]:
+        table.add_row("sequence", f"{summary['near_ties']} failures are ties within the error of the multipole order")
+    if "cascade" in summary:
+        sizes = summary["cascade"]["sizes"]
+        table.add_row(f"hold at {summary['cascade']['rate_per_s']:.4g} 1/s", f"{len(sizes)}: {_sizes(sizes)}")
+    screen.print(table)
+    if breakup.failures:
+        screen.print(_failures(breakup))
+
+
+def _outcome(breakup: Breakup) -> str:
+    count = len(breakup.failures)
+    match breakup.outcome:
+        case "bond":
+            return "breaks at a single bond"
+        case "crack":
+            return f"breaks by a crack of {count} failures"
+    if not count:
+        return "stays whole: no contact is pulled apart, or none up to the largest rate"
+    return f"stays whole: {count} contacts fail, and those that are left hold"
+
+
+def _sizes(sizes: Sequence[int]) -> str:
+    """Numbers of spheres, equal ones counted."""
+    counts = Counter(sizes)
+    shown = [f"{counts[size]} × {size}" if counts[size] > 1 else str(size) for size in sorted(counts, reverse=True)]
+    return ", ".join(shown[:MOST_SIZES]) + (", …" if len(shown) > MOST_SIZES else "") + " spheres"
+
+
+def _failures(breakup: Breakup) -> Table:
+    table = Table(title=f"first failures of {len(breakup.failures)}", title_justify="left")
+    for heading in ("", "contact", "spheres", "rate, 1/s", "by", "overload", "distance/Rg", "depth/a"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    for k, failure in enumerate(breakup.failures[:MOST_FAILURES]):
+        i, j = failure.pair
+        place = (f"{failure.radial_position:.2f}", f"{failure.depth:.1f}")
+        loaded = (f"{failure.rate:.4g}", failure.criterion, f"{failure.overload:.3g}")
+        table.add_row(str(k + 1), str(failure.contact), f"{i}–{j}", *loaded, *place)
+    return table
 
 
 def _quoted(value: float, unit: str) -> str:
@@ -87,7 +148,7 @@ def _failure_rows(table: Table, orientation: str, failure: dict[str, Any], units
         table.add_row(f"critical contact, {orientation}", "none: no contact is pulled apart")
         return
     i, j = failure["pair"]
-    where = f"{failure['contact']} (spheres {i} and {j}, {failure['depth']:.2f} Rg from the centre)"
+    where = f"{failure['contact']} (spheres {i} and {j}, {failure['radial_position']:.2f} Rg from the centre)"
     table.add_row(f"critical contact, {orientation}", where)
     strength = _quoted(failure["pull_off_force"], units["force"])
     table.add_row("fails by", f"{failure['criterion']}, pull-off force {strength}")

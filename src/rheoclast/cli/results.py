@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import os
 import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rheoclast import io, view
 from rheoclast.cli.analysis import Analysis
@@ -16,10 +19,25 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FILES = ("contacts.csv", "spheres.csv", "aggregate.vtp", "aggregate.xyz", "aggregate.png", "summary.json")
+MOST_NAMED = 8
 
 
-def prepare(folder: Path, overwrite: bool) -> None:
-    """Refuse a folder in which the results cannot be written, before anything is computed.
+def json_text(summary: dict[str, Any]) -> str:
+    """A summary as JSON.
+
+    Raises
+    ------
+    ArithmeticError
+        If a number in it is not finite.
+    """
+    try:
+        return json.dumps(summary, indent=2, allow_nan=False)
+    except ValueError:
+        raise ArithmeticError("a result is too large for a number; check rate, viscosity and strength") from None
+
+
+def prepare(folder: Path, overwrite: bool, names: Sequence[str] = FILES) -> None:
+    """Refuse a folder in which results of some names or patterns cannot be written, before anything is computed.
 
     Raises
     ------
@@ -34,28 +52,42 @@ def prepare(folder: Path, overwrite: bool) -> None:
         raise FileNotFoundError(f"--output {folder}: the folder {folder.parent} does not exist; create it first")
     if not os.access(folder if folder.exists() else folder.parent, os.W_OK | os.X_OK):
         raise PermissionError(f"--output {folder}: no permission to write there; choose another folder")
-    folders = [name for name in FILES if (folder / name).is_dir()]
+    found = _present(folder, names)
+    folders = [path.name for path in found if path.is_dir()]
     if folders:
         raise FileExistsError(f"--output {folder}: {', '.join(folders)} there is a folder; choose another folder")
-    present = [name for name in FILES if (folder / name).exists()]
+    present = [path.name for path in found]
     if present and not overwrite:
         raise FileExistsError(
-            f"--output {folder}: {', '.join(present)} already there; "
+            f"--output {folder}: {', '.join(present[:MOST_NAMED])}{', …' * (len(present) > MOST_NAMED)} already there; "
             "add --overwrite to replace, or choose another folder"
         )
 
 
 def write_results(folder: Path, analysis: Analysis, summary: str, units: Units) -> None:
-    """Write tables, geometry, picture and the summary, as JSON, into a folder, which is made if needed.
+    """Write tables, geometry, picture and the summary, as JSON, into a folder, which is made if needed."""
+    with finished_together(folder) as unfinished:
+        _write_files(unfinished, analysis, summary, units)
 
-    All files are finished before the first takes its place: what fails leaves nothing behind.
+
+@contextmanager
+def finished_together(folder: Path, names: Sequence[str] = FILES) -> Iterator[Path]:
+    """A folder to write results into, which then take their place all at once; what fails leaves nothing behind.
+
+    Earlier results of these names or patterns, of which there may have been more, are gone afterwards.
     """
     with tempfile.TemporaryDirectory(prefix=".rheoclast-", dir=folder.parent) as name:
-        finished = Path(name)
-        _write_files(finished, analysis, summary, units)
+        yield Path(name)
         folder.mkdir(exist_ok=True)
-        for file in FILES:
-            os.replace(finished / file, folder / file)
+        new = sorted(Path(name).iterdir())
+        for path in new:
+            os.replace(path, folder / path.name)
+        for stale in {path.name for path in _present(folder, names)} - {path.name for path in new}:
+            (folder / stale).unlink()
+
+
+def _present(folder: Path, names: Sequence[str]) -> list[Path]:
+    return [path for name in names for path in sorted(folder.glob(name))]
 
 
 def _write_files(folder: Path, analysis: Analysis, summary: str, units: Units) -> None:

@@ -10,14 +10,14 @@ from rheoclast._checks import FloatArray, IntArray
 from rheoclast.breakup.initiation import Initiation
 from rheoclast.cli.analysis import Analysis
 from rheoclast.cli.units import Units
-from rheoclast.mechanics.criteria import load_ratios
+from rheoclast.mechanics.criteria.load_ratios import load_ratios
 from rheoclast.particles.aggregate import Aggregate
 from rheoclast.particles.fractal import pair_correlation_dimension
 from rheoclast.particles.morphology import (
     coordination_numbers,
-    depth,
     enclosing_radius,
     porosity,
+    radial_position,
     radius_of_gyration,
     relative_shape_anisotropy,
 )
@@ -41,7 +41,7 @@ def contact_columns(analysis: Analysis, units: Units) -> Columns:
         "worst_load_ratio": worst / strength,
         f"force{force}": loads.force / units.force,
         f"moment{moment}": loads.moment / units.moment,
-        "depth": depth(aggregate, aggregate.contact_points),
+        "radial_position": radial_position(aggregate, aggregate.contact_points),
         **_error_columns(analysis, units),
     }
 
@@ -167,7 +167,7 @@ def _failure(analysis: Analysis, first: Initiation, units: Units) -> dict[str, A
         "critical_rate": first.rate / units.rate,
         "critical_rate_error": _error_of_rate(analysis, first),
         "pull_off_force": float(strength) / units.force,
-        "depth": float(depth(aggregate, aggregate.contact_points[first.contact])),
+        "radial_position": float(radial_position(aggregate, aggregate.contact_points[first.contact])),
         "flow_gradient_per_s": first.flow.gradient.tolist(),
     }
 

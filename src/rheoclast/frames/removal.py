@@ -18,11 +18,13 @@ from rheoclast._checks import FloatArray, IntArray
 from rheoclast._threads import one_blas_thread
 from rheoclast.frames.dissection import dissection
 from rheoclast.frames.equilibrium import equilibrium_matrix
+from rheoclast.frames.mechanisms import moving_parts
 from rheoclast.frames.springs import joint_stiffness
 from rheoclast.frames.updates import FactorizedFrame, Removal, factorized_frame
 from rheoclast.graphs import connected_parts
 
-UNBALANCED = 1e-9
+UNBALANCED = 1e-10
+MOST_REFINEMENTS = 3
 BALANCED = 1e-6
 
 
@@ -32,7 +34,7 @@ class CollapseError(ArithmeticError):
     Attributes
     ----------
     parts
-        (N,) connected part that each node belongs to, all 0 in the second case.
+        (N,) part that each node belongs to: connected parts, or in the second case those that move against each other.
     """
 
     def __init__(self, message: str, parts: IntArray) -> None:
@@ -50,8 +52,10 @@ class RemovableFrame:
         (C, 2) nodes of every joint.
     root
         (6C, 6C) root of the joints' stiffness.
+    sides
+        (6C, 6N) relative displacement of the joints' sides, with opposite sign, from the displacements of the nodes.
     elongation
-        (6C, 6N) relative displacement of the joints' sides, times that root, from the displacements of the nodes.
+        (6C, 6N) the relative displacement times that root.
     part
         (N − 1,) parts of the nested dissection of all nodes but node 0, which is held.
     factorized
@@ -60,6 +64,7 @@ class RemovableFrame:
 
     pairs: IntArray
     root: bsr_array
+    sides: bsr_array
     elongation: bsr_array
     part: IntArray
     factorized: FactorizedFrame
@@ -125,9 +130,9 @@ class LoadedFrame:
         ValueError
             If a joint does not exist, was removed before, or is given twice.
         """
-        chosen = _chosen(joints, len(self.frame.pairs), self.removed)
+        chosen = chosen_joints(joints, len(self.frame.pairs), self.removed)
         removed = np.concatenate([self.removed, chosen])
-        _refuse_parts(self.frame, removed, chosen)
+        refuse_parts(len(self.loads), self.frame.pairs, removed, chosen)
         with one_blas_thread():
             removal = self._factorized.extended(self._removal, chosen)
             if removal is not None:
@@ -141,10 +146,12 @@ class LoadedFrame:
         factorized, carried = self._factorized, self._carried
         scaled = factorized.scaled_loads(carried, removal)
         state = _state(self.frame, factorized, self.loads, removed, carried, removal, scaled)
-        if state.residual <= UNBALANCED:
-            return state
-        refined = factorized.refined_loads(scaled, _left_over(factorized, self.loads, scaled), removal)
-        return _state(self.frame, factorized, self.loads, removed, carried, removal, refined)
+        for _ in range(MOST_REFINEMENTS):
+            if state.residual <= UNBALANCED:
+                break
+            scaled = factorized.refined_loads(scaled, _left_over(factorized, self.loads, scaled), removal)
+            state = _state(self.frame, factorized, self.loads, removed, carried, removal, scaled)
+        return state
 
 
 def removable_frame(nodes: ArrayLike, pairs: ArrayLike, points: ArrayLike, stiffness: ArrayLike) -> RemovableFrame:
@@ -176,14 +183,15 @@ def removable_frame(nodes: ArrayLike, pairs: ArrayLike, points: ArrayLike, stiff
     sides = equilibrium_matrix(nodes, pairs, points).T
     blocks = -root.data[:, None] @ sides.data.reshape(-1, 2, 6, 6)
     elongation = bsr_array((blocks.reshape(-1, 6, 6), sides.indices, sides.indptr), shape=sides.shape)
-    part = dissection(nodes[1:], pairs[(pairs > 0).all(axis=1)] - 1)
+    part, intact = dissection(nodes[1:], pairs[(pairs > 0).all(axis=1)] - 1), np.empty(0, dtype=np.intp)
     try:
-        factorized = factorized_frame(elongation, part, np.empty(0, dtype=np.intp))
+        factorized = factorized_frame(elongation, part, intact)
     except ArithmeticError:
         raise CollapseError(
-            "with all its joints the frame moves without resistance; give every node joints that hold it", parts
+            "with all its joints the frame moves without resistance; give every node joints that hold it",
+            moving_parts(pairs, sides, elongation, intact),
         ) from None
-    return RemovableFrame(pairs, root, elongation, part, factorized)
+    return RemovableFrame(pairs, root, sides, elongation, part, factorized)
 
 
 def _state(
@@ -211,9 +219,9 @@ def _solved_anew(frame: RemovableFrame, loads: FloatArray, removed: IntArray, ch
     try:
         factorized = factorized_frame(frame.elongation, frame.part, removed)
     except ArithmeticError:
-        parts = np.zeros(len(loads), dtype=np.intp)
         raise CollapseError(
-            f"without {_named(chosen)} the frame holds together but moves without resistance", parts
+            f"without {named(chosen)} the frame holds together but moves without resistance",
+            moving_parts(frame.pairs, frame.sides, frame.elongation, removed),
         ) from None
     return _solved(frame, factorized, loads, removed)
 
@@ -241,19 +249,27 @@ def _refuse_resultant(state: LoadedFrame) -> None:
         )
 
 
-def _refuse_parts(frame: RemovableFrame, removed: IntArray, chosen: IntArray) -> None:
-    parts = connected_parts(frame.elongation.shape[1] // 6, np.delete(frame.pairs, removed, axis=0))
+def refuse_parts(count: int, pairs: IntArray, removed: IntArray, chosen: IntArray) -> None:
+    """Refuse a removal of chosen joints that leaves `count` nodes, joined in pairs (C, 2) but those removed, in parts.
+
+    Raises
+    ------
+    CollapseError
+        With the parts.
+    """
+    parts = connected_parts(count, np.delete(pairs, removed, axis=0))
     if parts.any():
         sizes = ", ".join(map(str, np.bincount(parts)))
-        raise CollapseError(f"without {_named(chosen)} the frame falls into parts of {sizes} nodes", parts)
+        raise CollapseError(f"without {named(chosen)} the frame falls into parts of {sizes} nodes", parts)
 
 
-def _named(joints: IntArray) -> str:
+def named(joints: IntArray) -> str:
+    """Joints as an error message calls them."""
     shown = ", ".join(map(str, joints[:5])) + (", …" if len(joints) > 5 else "")
     return f"joint{'s' if len(joints) > 1 else ''} {shown}"
 
 
-def _chosen(joints: int | Sequence[int] | IntArray, count: int, removed: IntArray) -> IntArray:
+def chosen_joints(joints: int | Sequence[int] | IntArray, count: int, removed: IntArray) -> IntArray:
     """The joints (R,) that a caller wants to remove, if that is possible."""
     chosen = np.atleast_1d(np.asarray(joints))
     if chosen.ndim != 1 or chosen.dtype.kind not in "iu" or not len(chosen):

@@ -30,7 +30,7 @@ from rheoclast.frames.cholesky import FrontalCholesky, frontal_cholesky
 from rheoclast.frames.springs import SpringFrame
 
 MOST_UPDATED = 64  # joints on one factorization; the updates of more cost as much as a new one
-LEAST_REDUNDANCY = 1e-5
+LEAST_REDUNDANCY = 1e-9
 LEAST_PIVOT = 1e-14
 
 
@@ -76,11 +76,8 @@ class FactorizedFrame:
     def scaled_loads(self, carried: FloatArray, removal: Removal) -> FloatArray:
         """Scaled joint loads q' (6C, K) after a removal, from those before it."""
         rows = unknowns(removal.joints)
-        parting = solve_triangular(removal.triangle, carried[rows], lower=True, check_finite=False)
-        parting = solve_triangular(removal.triangle, parting, lower=True, trans="T", check_finite=False)
-        moved = np.zeros((self.springs.stress.shape[1], carried.shape[1]))
-        moved[6 + self.factor.order] = _backward(self.factor, removal.columns.values[: len(rows)].T @ parting)
-        scaled = carried + self.springs.stress @ moved
+        parting = removal.parting(carried[rows])
+        scaled = carried + self._stress(removal.columns.values[: len(rows)].T @ parting)
         scaled[rows] = 0.0
         return scaled
 
@@ -89,9 +86,18 @@ class FactorizedFrame:
 
         The displacements of a frame that has become soft are large, and its joint loads small differences of them.
         """
-        moved = np.zeros_like(unbalanced)
-        moved[6:] = self.factor.solve(unbalanced[6:])
-        return scaled + self.scaled_loads(self.springs.stress @ moved, removal)
+        rows = unknowns(removal.joints)
+        columns = removal.columns.values[: len(rows)]
+        half = _forward(self.factor, unbalanced[6:][self.factor.order])[0]
+        added = self._stress(half + columns.T @ removal.parting(columns @ half))
+        added[rows] = 0.0
+        return scaled + added
+
+    def _stress(self, half: FloatArray) -> FloatArray:
+        """Scaled joint loads E L⁻ᵀ y (6C, K) from y (6N − 6, K), used up."""
+        moved = np.zeros((self.springs.stress.shape[1], half.shape[1]))
+        moved[6 + self.factor.order] = _backward(self.factor, half)
+        return self.springs.stress @ moved
 
     def _half_solved(self, joints: IntArray) -> tuple[FloatArray, list[slice]]:
         """Columns (6N − 6, 6R) of Y for some joints, and the rows where they are not zero."""
@@ -118,6 +124,11 @@ class Removal:
     joints: IntArray
     columns: _Columns
     triangle: FloatArray
+
+    def parting(self, carried: FloatArray) -> FloatArray:
+        """How far x (6M, K) the sides of the removed joints part, which carried q_R (6M, K)."""
+        halfway = solve_triangular(self.triangle, carried, lower=True, check_finite=False)
+        return solve_triangular(self.triangle, halfway, lower=True, trans="T", check_finite=False)
 
 
 class _Columns:

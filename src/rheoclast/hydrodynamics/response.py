@@ -9,6 +9,7 @@ import numpy as np
 
 from rheoclast import _checks
 from rheoclast._checks import FloatArray
+from rheoclast.errors import GeometryError
 from rheoclast.flows import LinearFlow
 from rheoclast.hydrodynamics import free_body
 from rheoclast.hydrodynamics.model import HydrodynamicModel
@@ -21,6 +22,7 @@ from rheoclast.stokes.solver import Convergence
 from rheoclast.vectors import LEVI_CIVITA, STRAIN_BASIS, cross_matrix, strain_components
 
 ROUNDING = 1e-12
+SAME_PLACE = 1e-9  # units of length
 DIMENSIONLESS_VISCOSITY = 1.0
 
 
@@ -95,6 +97,11 @@ class RigidResponse:
     order: int | None = None
     convergence: Convergence | None = None
     coarser: RigidResponse | None = None
+
+    @property
+    def by_order(self) -> tuple[RigidResponse, ...]:
+        """The responses at all orders that were solved, the lowest first and this one last."""
+        return (*(self.coarser.by_order if self.coarser else ()), self)
 
     @property
     def viscosity(self) -> float:
@@ -242,3 +249,22 @@ class RigidResponse:
         """SI loads from dimensionless force and torque (..., N, 6 or more)."""
         force, torque = self.scales.force * loads[..., :3], self.scales.torque * loads[..., 3:6]
         return SphereLoads(force, torque, self.scales.force * rounding)
+
+
+def refuse_other_spheres(spheres: Spheres, response: RigidResponse) -> None:
+    """Refuse a response that belongs to other spheres.
+
+    Raises
+    ------
+    GeometryError
+        With the number of spheres, and what to do.
+    """
+    theirs, tolerance = response.spheres, SAME_PLACE * response.scales.length
+    if len(spheres) != len(theirs) or not all(
+        np.allclose(a, b, rtol=0, atol=tolerance)
+        for a, b in ((spheres.centers, theirs.centers), (spheres.radii, theirs.radii))
+    ):
+        raise GeometryError(
+            f"the response was solved for other spheres ({len(theirs)}) than those of the aggregate "
+            f"({len(spheres)}); solve rigid_response(aggregate.spheres, ...) first"
+        )

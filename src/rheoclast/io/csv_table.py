@@ -26,7 +26,7 @@ _NUMBER = re.compile(r"[-+]?\.?\d")
 
 def read(file: TextFile) -> SphereRows:
     """Spheres of a table with named columns."""
-    rows = list(_rows(file))
+    rows = list(named_rows(file))
     if not rows:
         raise file.error("expected a line that names the columns x, y, z and r, got only comments")
     line, names = rows[0]
@@ -47,7 +47,7 @@ def read(file: TextFile) -> SphereRows:
     return sphere_rows(file, rows[1:], columns)
 
 
-def _rows(file: TextFile) -> Iterator[Row]:
+def named_rows(file: TextFile) -> Iterator[Row]:
     """Line number and cells of every row that is not empty or a comment."""
     lines = ["" if line.lstrip().startswith("#") else line for line in file.lines]
     reader = csv.reader(lines, delimiter=separator(next((line for line in lines if line.strip()), "")))

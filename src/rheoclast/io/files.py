@@ -71,7 +71,7 @@ def load(path: str | os.PathLike[str]) -> TextFile:
             "unpack it if it is compressed, or export it as text"
         )
     if not text.strip():
-        raise file.error("expected rows of spheres, got an empty file; write it anew")
+        raise file.error("expected rows of numbers, got an empty file; write it anew")
     lines = _LINE_END.split(text)
     return TextFile(file.path, tuple(lines[:-1] if lines[-1] == "" else lines))
 

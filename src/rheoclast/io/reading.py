@@ -13,6 +13,7 @@ from rheoclast import _checks, scales
 from rheoclast._checks import FloatArray
 from rheoclast.errors import GeometryError
 from rheoclast.io import lengths
+from rheoclast.io.contact_table import read_pairs
 from rheoclast.io.files import TextFile, load
 from rheoclast.io.formats import reader_for
 from rheoclast.io.rows import SphereRows
@@ -29,6 +30,7 @@ def read(
     radius: float | None = None,
     tolerance: float = CONTACT_TOLERANCE,
     overlap_tolerance: float = CONTACT_TOLERANCE,
+    contacts: str | os.PathLike[str] | None = None,
 ) -> Aggregate:
     """Aggregate of the touching spheres in a file.
 
@@ -46,6 +48,9 @@ def read(
         Largest gap of two spheres, in mean radii of the pair, that counts as contact.
     overlap_tolerance
         Largest overlap of two spheres, in mean radii of the pair, that counts as contact.
+    contacts
+        A table of comma-separated values with columns i and j, the spheres of every contact counted from 0, such as
+        the `contacts.csv` that `rheoclast stress` writes. Only these are in contact then, and gaps do not matter.
 
     Raises
     ------
@@ -63,6 +68,10 @@ def read(
         If a radius exceeds 1 mm, unless lengths are dimensionless.
     """
     spheres = read_spheres(path, unit, format=format, radius=radius, overlap_tolerance=overlap_tolerance)
+    if contacts is not None:
+        pairs = read_pairs(contacts)
+        with _named(contacts):
+            return Aggregate(spheres, pairs)
     with _named(path):
         return Aggregate.touching(spheres, tolerance)
 
@@ -125,3 +134,5 @@ def _named(path: str | os.PathLike[str]) -> Iterator[None]:
         yield
     except GeometryError as error:
         raise GeometryError(f"{path}: {error}") from None
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None

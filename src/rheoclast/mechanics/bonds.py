@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from math import gamma
 
 import numpy as np
 
 from rheoclast import _checks
-from rheoclast._checks import FloatArray
+from rheoclast._checks import FloatArray, IntArray
+
+SMALLEST_FACTOR = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,6 +66,22 @@ class Bonds:
     def strength(self, contacts: int) -> FloatArray:
         """Tensile, shear, bending and twisting strength of `contacts` contacts, (C, 4)."""
         return self._table(contacts, "tensile_strength", "shear_strength", "bending_strength", "twisting_strength")
+
+    def chosen(self, contacts: IntArray) -> Bonds:
+        """The bonds of some contacts, by their indices or a mask."""
+        values = (getattr(self, field.name) for field in fields(self))
+        return Bonds(*(value[contacts] if value.ndim else value for value in values))
+
+    def scattered(self, contacts: int, modulus: float, seed: int) -> Bonds:
+        """The same bonds with strengths that scatter from contact to contact, for `contacts` of them.
+
+        All strengths of a contact are multiplied by one number from a Weibull distribution of mean 1 and the given
+        modulus (shape): 1 is an exponential distribution, 10 a scatter of 12 %. Equal seeds give equal numbers.
+        """
+        modulus = _checks.positive("modulus", modulus)
+        drawn = np.random.default_rng(seed).weibull(modulus, contacts)
+        factor = np.maximum(drawn / gamma(1 + 1 / modulus), SMALLEST_FACTOR)
+        return Bonds(*self.stiffness(contacts).T, *(factor[:, None] * self.strength(contacts)).T)
 
     def _table(self, contacts: int, *names: str) -> FloatArray:
         columns = []

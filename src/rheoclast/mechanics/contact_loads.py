@@ -152,11 +152,16 @@ def check_loads(aggregate: Aggregate, loads: SphereLoads) -> None:
     """Refuse loads that do not belong to the spheres or do not balance, and a single sphere."""
     _checks.instance("aggregate", aggregate, Aggregate, "for instance Aggregate.touching(spheres)")
     _checks.instance("loads", loads, SphereLoads, "for instance response.loads(flow)")
-    if len(aggregate.pairs) == 0:
-        raise ValueError("the aggregate is a single sphere and has no contact; expected at least two touching spheres")
+    refuse_single_sphere(aggregate)
     if loads.force.shape[-2] != len(aggregate):
         raise ValueError(f"loads: expected one per sphere ({len(aggregate)}), got {loads.force.shape[-2]}")
     _refuse_unbalanced(aggregate.spheres.centers - aggregate.spheres.center_of_mass, loads)
+
+
+def refuse_single_sphere(aggregate: Aggregate) -> None:
+    """Refuse an aggregate without contacts."""
+    if len(aggregate.pairs) == 0:
+        raise ValueError("the aggregate is a single sphere and has no contact; expected at least two touching spheres")
 
 
 def _refuse_unbalanced(arms: FloatArray, loads: SphereLoads) -> None:

@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rheoclast._checks import IntArray
-from rheoclast.frames.removal import LoadedFrame, removable_frame
+import numpy as np
+
+from rheoclast._checks import FloatArray, IntArray
+from rheoclast.frames.removable_tree import LoadedTree, RemovableTree
+from rheoclast.frames.removal import CollapseError, LoadedFrame, RemovableFrame, removable_frame
 from rheoclast.loads import SphereLoads
 from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.contact_loads import (
@@ -15,26 +18,53 @@ from rheoclast.mechanics.contact_loads import (
     dimensionless_cases,
     dimensionless_geometry,
     dimensionless_stiffness,
+    refuse_single_sphere,
 )
 from rheoclast.particles.aggregate import Aggregate
 
 
 @dataclass(frozen=True, eq=False)
+class LoosenableAggregate:
+    """An aggregate with all its contacts, ready to be loaded and to lose some. Made by `loosenable`.
+
+    Attributes
+    ----------
+    aggregate
+        Spheres and contacts.
+    """
+
+    aggregate: Aggregate
+    _frame: RemovableFrame | RemovableTree
+
+    def loaded(self, loads: SphereLoads) -> LoosenedAggregate:
+        """The aggregate under force and torque of the fluid on every sphere, (N, 3) or (..., N, 3), in balance.
+
+        Raises
+        ------
+        ValueError
+            As `contact_loads`.
+        """
+        check_loads(self.aggregate, loads)
+        cases, size = dimensionless_cases(loads, float(self.aggregate.spheres.radii.mean()))
+        return _loosened(self.aggregate, self._frame.loaded(cases), size, loads.force.shape[:-2])
+
+
+@dataclass(frozen=True, eq=False)
 class LoosenedAggregate:
-    """An aggregate some of whose contacts are lost, under one case of loads. Made by `loosened` and `without`.
+    """An aggregate some of whose contacts are lost, under loads. Made by `LoosenableAggregate.loaded` and `without`.
 
     Attributes
     ----------
     aggregate
         Spheres and all contacts, those lost among them.
     loads
-        Loads (C,) of the contacts; zero where the contact is lost.
+        Loads (..., C) of the contacts; zero where the contact is lost.
     """
 
     aggregate: Aggregate
     loads: ContactLoads
-    _state: LoadedFrame
-    _size: float
+    _state: LoadedFrame | LoadedTree
+    _size: FloatArray
 
     @property
     def lost(self) -> IntArray:
@@ -54,33 +84,37 @@ class LoosenedAggregate:
         CollapseError
             If the aggregate falls into parts; the error carries them.
         """
-        return _loosened(self.aggregate, self._state.without(contacts), self._size)
+        batch = self.loads.force.shape[:-2]
+        return _loosened(self.aggregate, self._state.without(contacts), self._size, batch)
 
 
-def loosened(aggregate: Aggregate, loads: SphereLoads, bonds: Bonds) -> LoosenedAggregate:
-    """The aggregate with all its contacts, ready to lose some.
+def loosenable(aggregate: Aggregate, bonds: Bonds) -> LoosenableAggregate:
+    """The aggregate with its contacts assembled and factorized, which all loads and losses share.
 
-    Parameters
-    ----------
-    aggregate
-        Spheres and contacts.
-    loads
-        Force and torque (N, 3) of the fluid on every sphere, in balance.
-    bonds
-        Stiffness of the contacts, which decides how the load is shared anew.
+    Bonds give the stiffness, which decides how the load is shared anew. A tree is balanced without it.
 
     Raises
     ------
     ValueError
-        As `contact_loads`.
+        If there is no contact, the bonds have another number of contacts, or do not hold the spheres.
     """
-    check_loads(aggregate, loads)
-    cases, size = dimensionless_cases(loads, float(aggregate.spheres.radii.mean()))
-    frame = removable_frame(*dimensionless_geometry(aggregate), dimensionless_stiffness(aggregate, bonds))
-    return _loosened(aggregate, frame.loaded(cases), float(size[0]))
+    refuse_single_sphere(aggregate)
+    geometry, stiffness = dimensionless_geometry(aggregate), dimensionless_stiffness(aggregate, bonds)
+    try:
+        frame = RemovableTree(*geometry) if aggregate.is_tree else removable_frame(*geometry, stiffness)
+    except CollapseError:
+        raise ValueError(
+            "bonds: expected contacts that hold the spheres, got some that turn or slide without resistance; "
+            "bring bending, twisting and tangential stiffness closer to the normal one"
+        ) from None
+    return LoosenableAggregate(aggregate, frame)
 
 
-def _loosened(aggregate: Aggregate, state: LoadedFrame, size: float) -> LoosenedAggregate:
-    carried, length = state.joint_loads[:, :, 0], float(aggregate.spheres.radii.mean())
-    loads = ContactLoads(aggregate.normals, size * carried[:, :3], size * length * carried[:, 3:])
-    return LoosenedAggregate(aggregate, loads, state, size)
+def _loosened(
+    aggregate: Aggregate, state: LoadedFrame | LoadedTree, size: FloatArray, batch: tuple[int, ...]
+) -> LoosenedAggregate:
+    length = float(aggregate.spheres.radii.mean())
+    carried = np.moveaxis(size * state.joint_loads, -1, 0)
+    shape = (*batch, len(carried[0]), 3)
+    force, moment = carried[..., :3].reshape(shape), length * carried[..., 3:].reshape(shape)
+    return LoosenedAggregate(aggregate, ContactLoads(aggregate.normals, force, moment), state, size)

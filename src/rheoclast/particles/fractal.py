@@ -17,11 +17,11 @@ from scipy.spatial import cKDTree
 
 from rheoclast import _checks
 from rheoclast._checks import FloatArray, IntArray
+from rheoclast.fits import CONFIDENCE, straight_line, student_quantile
 from rheoclast.particles.aggregate import Aggregate
 from rheoclast.particles.morphology import radius_of_gyration
 from rheoclast.particles.spheres import Spheres
 
-CONFIDENCE = 0.95
 SHORTEST_DISTANCE = 5.0
 """Mean radii: below, the shells of neighbours show; at an even number, rounding would decide who is within."""
 SMALLEST_GYRATION = 8.0
@@ -76,21 +76,19 @@ def fractal_law(aggregates: Sequence[Aggregate], confidence: float = CONFIDENCE)
         raise ValueError(f"aggregates: expected at least 3, got {count}; add aggregates of other sizes")
     sizes = np.log([len(aggregate) for aggregate in aggregates])
     gyrations = np.log([_relative_gyration(aggregate.spheres) for aggregate in aggregates])
-    offsets = sizes - sizes.mean()
-    spread = float(offsets @ offsets)
-    if spread == 0:
+    if np.ptp(sizes) == 0:
         raise ValueError(f"aggregates: expected several sizes, got {count} of {len(aggregates[0])} spheres")
-    slope = float(offsets @ gyrations) / spread
-    if slope <= 0:
+    line = straight_line(sizes, gyrations, confidence)
+    if line.slope <= 0:
         raise ValueError("aggregates: expected radii of gyration that grow with the number of spheres, got a fall")
-    residual = gyrations - gyrations.mean() - slope * offsets
-    scatter = _student_quantile(confidence, count - 2) * np.sqrt(residual @ residual / (count - 2))
-    intercept = float(sizes.mean() - gyrations.mean() / slope)
-    of_slope = float(scatter / np.sqrt(spread))
-    of_intercept = float(scatter / slope * np.sqrt(1 / count + (intercept - sizes.mean()) ** 2 / spread))
+    intercept = -line.intercept / line.slope
+    of_intercept = line.reach_at(intercept) / line.slope
     return FractalLaw(
-        dimension=1 / slope,
-        dimension_interval=(1 / (slope + of_slope), 1 / (slope - of_slope) if of_slope < slope else np.inf),
+        dimension=1 / line.slope,
+        dimension_interval=(
+            1 / (line.slope + line.slope_reach),
+            1 / (line.slope - line.slope_reach) if line.slope_reach < line.slope else np.inf,
+        ),
         prefactor=float(np.exp(intercept)),
         prefactor_interval=(float(np.exp(intercept - of_intercept)), float(np.exp(intercept + of_intercept))),
     )
@@ -113,7 +111,7 @@ def pair_correlation_dimension(aggregate: Aggregate, confidence: float = CONFIDE
         If the radius of gyration is below 8 mean radii, or fewer than 16 spheres lie in the inner region.
     """
     _checks.instance("aggregate", aggregate, Aggregate, "make one with Aggregate.touching(spheres)")
-    quantile = _student_quantile(confidence, 2**HALVINGS - 1)
+    quantile = student_quantile(confidence, 2**HALVINGS - 1)
     radius = _mean_radius(aggregate.spheres)
     longest = LONGEST_DISTANCE * _relative_gyration(aggregate.spheres)
     centers = (aggregate.spheres.centers - aggregate.spheres.center_of_mass) / radius
@@ -179,12 +177,3 @@ def _relative_gyration(spheres: Spheres) -> float:
 def _mean_radius(spheres: Spheres) -> float:
     """Geometric mean of the radii."""
     return float(np.exp(np.log(spheres.radii).mean()))
-
-
-def _student_quantile(confidence: float, freedoms: int) -> float:
-    from scipy.special import stdtrit  # scipy.stats would double the time that importing the package takes
-
-    confidence = _checks.positive("confidence", confidence)
-    if confidence >= 1:
-        raise ValueError(f"confidence: expected a share between 0 and 1, got {confidence:g}; take 0.95")
-    return float(stdtrit(freedoms, 0.5 + confidence / 2))

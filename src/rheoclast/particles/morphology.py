@@ -10,6 +10,7 @@ from __future__ import annotations
 from itertools import combinations
 
 import numpy as np
+from scipy.spatial import ConvexHull, QhullError
 
 from rheoclast._checks import FloatArray, IntArray
 from rheoclast.particles.aggregate import Aggregate
@@ -146,6 +147,21 @@ def loops(aggregate: Aggregate) -> int:
 
 
 def depth(aggregate: Aggregate, points: FloatArray) -> FloatArray:
+    """How deep points (P, 3) between the spheres lie below the convex hull of the aggregate, (P,), in mean radii.
+
+    The hull is that of the centres, moved outwards by the mean radius: exact for equal spheres. Contacts of planar and
+    straight aggregates are at depth 1.
+    """
+    length, origin = float(aggregate.spheres.radii.mean()), aggregate.spheres.center_of_mass
+    try:
+        faces = ConvexHull((aggregate.spheres.centers - origin) / length).equations
+    except (QhullError, ValueError):  # flat, straight, or fewer than four spheres
+        return np.ones(len(points))
+    below = -((np.asarray(points) - origin) / length @ faces[:, :3].T + faces[:, 3])
+    return 1 + below.min(axis=1)
+
+
+def radial_position(aggregate: Aggregate, points: FloatArray) -> FloatArray:
     """Distance (P,) of points (P, 3) from the centre of mass over the radius of gyration."""
     offset = np.asarray(points) - aggregate.spheres.center_of_mass
     return np.linalg.norm(offset, axis=-1) / radius_of_gyration(aggregate.spheres)

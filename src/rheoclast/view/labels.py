@@ -8,19 +8,20 @@ import numpy as np
 
 from rheoclast._checks import FloatArray
 from rheoclast.view.colours import ColourScale
+from rheoclast.view.layout import Box
 from rheoclast.view.projection import principal_axes
 from rheoclast.view.quantities import minus, prefixed, quoted, round_down
-from rheoclast.view.rendering import Image, Rendering
+from rheoclast.view.rendering import Image
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.colors import Colormap
     from matplotlib.figure import Figure
 
 INK, FAINT_INK = "#24282d", "#6d737a"
 SMALL, TINY = 9, 8  # points
 EXTENDED, SHORTENED = "#c9370f", "#1c5fb4"
 END_ON = 0.2  # projected length of a unit vector that counts as pointing at the viewer
-Box = tuple[float, float, float, float]
 
 
 def draw_scale_bar(figure: Figure, box: Box, pixels_per_length: float, length_unit: str | None) -> None:
@@ -49,6 +50,33 @@ def draw_colour_bar(figure: Figure, box: Box, scale: ColourScale, quantity: str,
     axes.tick_params(labelsize=TINY, length=2.5, width=0.6, color=FAINT_INK, labelcolor=INK, pad=2)
     label = f"{quantity} ({shown_unit})" if shown_unit else quantity
     axes.set_title(label, size=SMALL, color=INK, pad=4)
+
+
+def draw_failure_bar(figure: Figure, box: Box, colours: Colormap, rates: FloatArray) -> Axes:
+    """Colour bar of failures by their number, and over it their rates (K,) over the first one's, K > 1."""
+    count, ratios = len(rates), rates / rates[0]
+    left, bottom, width, height = box
+    bar = figure.add_axes((left, bottom, width, 0.16 * height))
+    bar.imshow(np.arange(count)[None, :], cmap=colours, aspect="auto", extent=(0.5, count + 0.5, 0, 1))
+    bar.set(yticks=[], xticks=[1, count], xlabel="failure")
+    chart = figure.add_axes((left, bottom + 0.24 * height, width, 0.76 * height), sharex=bar)
+    number = np.arange(1, count + 1)
+    chart.plot(number, ratios, color=FAINT_INK, linewidth=0.7, zorder=1)
+    chart.scatter(number, ratios, c=number, cmap=colours, s=min(10.0, 400 / count), linewidths=0, zorder=2)
+    top = float(ratios.max())
+    ticks = [0.0, top] if top > 4 else [0.0, 1.0, top] if top > 1.3 else [0.0, 1.0]
+    chart.set(ylim=(0, 1.06 * top))
+    chart.set_yticks(ticks, labels=[f"{tick:.3g}" for tick in ticks])
+    chart.spines[["top", "right", "bottom"]].set_visible(False)
+    for axes in (bar, chart):
+        axes.tick_params(labelsize=TINY, length=2.5, width=0.6, color=FAINT_INK, labelcolor=INK, pad=2)
+        for spine in axes.spines.values():
+            spine.set(edgecolor=FAINT_INK, linewidth=0.6)
+    chart.tick_params(axis="x", bottom=False, labelbottom=False)
+    bar.xaxis.label.set(size=SMALL, color=INK)
+    bar.xaxis.labelpad = -8
+    chart.set_title("rate / initiation rate", size=SMALL, color=INK, pad=3)
+    return chart
 
 
 def draw_triad(figure: Figure, box: Box, view: FloatArray) -> None:
@@ -85,14 +113,13 @@ def draw_flow(figure: Figure, box: Box, view: FloatArray, strain_rate: FloatArra
     axes.text(0, top + 0.25, "flow", ha="center", va="bottom", size=TINY, color=FAINT_INK)
 
 
-def mark_contact(axes: Axes, rendering: Rendering, point: FloatArray, radius: float, contact: int, text: str) -> None:
+def mark_contact(axes: Axes, image: Image, point: FloatArray, radius: float, text: str, visible: bool = True) -> None:
     """Ring of a radius around a contact point, in pixels, and a leader to a label where the picture is emptiest.
 
     The ring is dashed where the contact is hidden behind spheres.
     """
     from matplotlib.patches import Circle
 
-    visible = bool((rendering.contact == contact).any())
     style = "solid" if visible else (0, (2.2, 1.6))
     pixel = axes.figure.dpi / 72
     radius = max(radius, 8 * pixel)
@@ -101,7 +128,7 @@ def mark_contact(axes: Axes, rendering: Rendering, point: FloatArray, radius: fl
     label = axes.text(0, 0, text if visible else f"{text} (hidden)", size=SMALL, color=INK, ha="center", va="center")
     extent = label.get_window_extent()
     half = np.array([extent.width, extent.height]) / 2 + 5 * pixel
-    place = _free_place(rendering.image[..., 3], point[:2], half, radius + 8 * pixel)
+    place = _free_place(image[..., 3], point[:2], half, radius + 8 * pixel)
     label.set_position((float(place[0]), float(place[1])))
     label.set_bbox({"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.5})
     half -= 3 * pixel

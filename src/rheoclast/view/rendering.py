@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import cKDTree
 
 from rheoclast._checks import FloatArray, IntArray
@@ -69,14 +69,30 @@ class Collars:
     reaches: FloatArray
     colours: FloatArray
 
+    @classmethod
+    def none(cls) -> Collars:
+        """No patches."""
+        return cls(np.empty((0, 2), dtype=np.intp), np.empty((0, 3)), np.empty(0), np.empty((0, 3)))
+
 
 def render(
-    centers: FloatArray, radii: FloatArray, collars: Collars, width: int, height: int, samples: int = 3
+    centers: FloatArray,
+    radii: FloatArray,
+    collars: Collars,
+    width: int,
+    height: int,
+    *,
+    colours: ArrayLike = SPHERE_COLOUR,
+    samples: int = 3,
 ) -> Rendering:
-    """Image of spheres (N, 3), (N,) with painted contacts, `samples`² points per pixel."""
+    """Image of spheres (N, 3), (N,) with painted contacts, `samples`² points per pixel.
+
+    `colours` are red, green, blue of every sphere (N, 3) or of all (3,).
+    """
     centers, radii = samples * centers, samples * radii
     depth, owner = visible_surface(centers, radii, height * samples, width * samples)
-    colour, contact = _painted(depth, owner, collars, samples)
+    own_colours = np.broadcast_to(np.asarray(colours, dtype=np.float32), (len(radii), 3))
+    colour, contact = _painted(depth, owner, own_colours, collars, samples)
     openness = _openness(centers, radii, depth, owner, samples)
     for top in range(0, len(depth), BAND * samples):
         band = slice(top, top + BAND * samples)
@@ -108,16 +124,18 @@ def _window(center: FloatArray, reach: float, shape: Sequence[int]) -> tuple[tup
     return (slice(low[1], high[1]), slice(low[0], high[0])), across[None, :], along[:, None]
 
 
-def _painted(depth: Image, owner: NDArray[np.int32], collars: Collars, samples: int) -> tuple[Image, NDArray[np.int32]]:
+def _painted(
+    depth: Image, owner: NDArray[np.int32], sphere_colours: Image, collars: Collars, samples: int
+) -> tuple[Image, NDArray[np.int32]]:
     """Colour (H, W, 3) of the visible surface before light falls on it, and the nearest contact painted there.
 
     The paint is full near the contact point and fades out towards `reaches`; where collars meet, they add.
     """
     colour = np.zeros((*depth.shape, 3), dtype=np.float32)
-    colour[owner != NOTHING] = SPHERE_COLOUR
+    colour[owner != NOTHING] = sphere_colours[owner[owner != NOTHING]]
     contact = np.full(depth.shape, NOTHING, dtype=np.int32)
     nearest = np.full(depth.shape, np.inf, dtype=np.float32)
-    reaches, tints = samples * collars.reaches, (collars.colours - SPHERE_COLOUR).astype(np.float32)
+    reaches, paint = samples * collars.reaches, collars.colours.astype(np.float32)
     for c, (point, reach) in enumerate(zip(samples * collars.points, reaches, strict=True)):
         window, across, along = _window(point, reach, depth.shape)
         distance2 = across**2 + along**2 + (depth[window] - np.float32(point[2])) ** 2
@@ -125,7 +143,9 @@ def _painted(depth: Image, owner: NDArray[np.int32], collars: Collars, samples: 
         ours &= distance2 < np.float32(reach**2)
         distance = np.sqrt(distance2[ours])
         share = np.clip((1 - distance / np.float32(reach)) / np.float32(FADE), 0, 1)
-        colour[window][ours] += (share * share * (3 - 2 * share))[:, None] * tints[c]
+        colour[window][ours] += (share * share * (3 - 2 * share))[:, None] * (
+            paint[c] - sphere_colours[owner[window][ours]]
+        )
         first = distance < nearest[window][ours]
         ours[ours] = first
         contact[window][ours] = c

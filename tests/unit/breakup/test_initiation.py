@@ -1,4 +1,4 @@
-"""Strengths, ratios, laws other than JKR, and the first failure."""
+"""Strengths, laws other than JKR, and the first failure."""
 
 import inspect
 from dataclasses import replace
@@ -35,34 +35,40 @@ def test_measured_pull_off_is_that_of_the_measured_spheres_and_scales_with_the_r
     np.testing.assert_array_equal(law.bonds(TRIMER).stiffness(2), EXPLICIT.bonds(TRIMER).stiffness(2))
 
 
-def loads():
-    """Contact 0: tension 1, shear 2, bending 3, twisting -4. Contact 1: the same, compressed."""
-    return rc.ContactLoads(
-        np.array([[1.0, 0, 0]] * 2), np.array([[1.0, 2, 0], [-1, 0, 2]]), np.array([[-4.0, 0, 3], [4, 3, 0]])
-    )
-
-
-def test_ratios_by_definition():
-    bonds = rc.Bonds(1, 1, 1, 1, tensile_strength=10, shear_strength=20, bending_strength=5, twisting_strength=[8, 16])
-    np.testing.assert_allclose(rc.load_ratios(loads(), bonds), [[0.1, 0.1, 0.6, 0.5], [-0.1, 0.1, 0.6, 0.25]])
-
-
 @pytest.fixture(scope="module")
 def table():
     return rc.contact_response(TRIMER, rc.rigid_response(SPHERES, rc.StokesianDynamics(), 1.0))
 
 
-@pytest.mark.parametrize("criterion", ["tension", "shear", "bending", "twisting"])
-def test_first_failure_by_each_criterion(table, criterion):
+@pytest.mark.parametrize(
+    ("criterion", "load"),
+    [("tension", "tension"), ("sliding", "shear"), ("rolling", "bending"), ("twisting", "twisting")],
+)
+def test_first_failure_by_each_limit(table, criterion, load):
     flow = rc.simple_shear(3.0).rotated(rc_rotation())
-    name = {"tension": "tensile"}.get(criterion, criterion) + "_strength"
+    name = {"tension": "tensile"}.get(load, load) + "_strength"
     first = rc.initiation(table, rc.Bonds(1, 1, 1, 1, **{name: [7.0, 9.0]}), flow)
-    carried = np.abs(getattr(table.loads(first.flow), criterion))
+    carried = np.abs(getattr(table.loads(first.flow), load))
     assert first.criterion == criterion
     assert carried[first.contact] == pytest.approx([7.0, 9.0][first.contact])
     assert (carried <= np.array([7.0, 9.0]) * (1 + 1e-12)).all() or criterion == "tension"
     assert first.flow.rate == first.rate
     np.testing.assert_allclose(first.flow.gradient * 3.0, flow.gradient * first.rate)
+
+
+@pytest.mark.parametrize(
+    "criterion",
+    [rc.Tension(), rc.Sliding(0.5), rc.Rolling(), rc.Twisting(), rc.Combined(1), rc.Combined(), rc.EVERY_LIMIT],
+    ids=lambda criterion: criterion.name,
+)
+def test_load_ratio_is_one_at_the_first_failure(table, criterion):
+    """Largest of all contacts; and the criterion that is told is the one that is met."""
+    bonds = rc.Bonds(1, 1, 1, 1, [7.0, 9.0], [5.0, 3.0], [4.0, 8.0], [2.0, 1.0])
+    first = rc.initiation(table, bonds, rc.planar_extension(3.0).rotated(rc_rotation()), criterion)
+    ratios = rc.load_ratios(table.loads(first.flow), bonds, criterion)
+    assert ratios.max() == pytest.approx(1, rel=1e-12)
+    contact, part = np.unravel_index(ratios.argmax(), ratios.shape)
+    assert (first.contact, first.criterion) == (contact, criterion.parts[part].name)
 
 
 def rc_rotation():
@@ -72,7 +78,7 @@ def rc_rotation():
 def test_the_strictest_criterion_decides(table):
     flow, bonds = rc.simple_shear(1.0).rotated(rc_rotation()), rc.Bonds(1, 1, 1, 1, tensile_strength=1e3)
     both = rc.initiation(table, replace(bonds, bending_strength=1e-3), flow)
-    assert both.criterion == "bending"
+    assert both.criterion == "rolling"
     assert table.loads(both.flow).bending[both.contact] == pytest.approx(1e-3)
 
 

@@ -76,7 +76,10 @@ class TestRefusals:
         assert "less than that of the densest packing" in err
         assert not list(tmp_path.iterdir())
 
-    def test_lost_contacts_are_told(self, run):
-        _, _, err = run("generate", "thinned-fcc-ball", "20", "3", "--output", "thin.xyz")
-        assert "thin.xyz has no place for contacts" in err
-        assert run("generate", "thinned-fcc-ball", "20", "3", "--output", "thin.vtp")[2] == ""
+    def test_contacts_are_kept_where_not_all_that_touch_are_joined(self, run):
+        status, out, _ = run("generate", "thinned-fcc-ball", "20", "3", "--output", "thin.xyz")
+        assert status == 0
+        assert "--contacts thin_contacts.csv" in out.replace("\n", "")
+        thin = rc.read("thin.xyz", contacts="thin_contacts.csv")
+        assert len(thin.pairs) == 30
+        assert len(rc.read("thin.xyz").pairs) > 30

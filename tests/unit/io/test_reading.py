@@ -103,7 +103,7 @@ def test_folder(tmp_path):
 @pytest.mark.parametrize("suffix", ["txt", "csv", "xyz", "dump", "data", "dat"])
 @pytest.mark.parametrize("content", ["", "\n \n\n"])
 def test_empty_file(suffix, content, file):
-    with pytest.raises(FileFormatError, match=rf"empty.{suffix}: expected rows of spheres, got an empty file"):
+    with pytest.raises(FileFormatError, match=rf"empty.{suffix}: expected rows of numbers, got an empty file"):
         read(file(f"empty.{suffix}", content))
 
 

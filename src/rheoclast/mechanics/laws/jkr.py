@@ -10,6 +10,7 @@ from typing import final
 
 import numpy as np
 
+from rheoclast import _checks
 from rheoclast._checks import FloatArray
 from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.laws.law import ContactLaw
@@ -30,10 +31,35 @@ class JKR(ContactLaw):
     - bending stiffness (4/3)E*c³, that of two half-spaces joined on a disc (equal to 4 R* times the pull-off force),
     - twisting stiffness (8/3)Gc³, that of two half-spaces joined on a disc.
 
-    Only the tensile strength is limited: sliding, rolling and twisting limits need further data.
+    and, where the further data that they need are given,
+
+    - shear strength 2μF_c, with which sliding begins under no load, F_c the pull-off force (C. Thornton, J. Phys. D 24
+      (1991) 1942),
+    - twisting strength (3π/16)c times that, the moment that turns the whole of a Hertzian contact,
+    - bending strength 4F_cξ (C. Dominik & A. G. G. M. Tielens, Astrophys. J. 480 (1997) 647).
+
+    Bending moments in aggregates are of the order of force times radius: with ξ of nanometres contacts roll long before
+    they are pulled off.
+
+    Parameters
+    ----------
+    material
+        Of the spheres.
+    friction
+        Coefficient μ of sliding; None sets no limit to shear and twisting.
+    rolling_distance
+        Distance ξ in m by which a contact rolls before it yields, of the order of an atom to a few nanometres; None
+        sets no limit to bending.
     """
 
     material: Material
+    friction: float | None = None
+    rolling_distance: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("friction", "rolling_distance"):
+            if getattr(self, name) is not None:
+                _checks.positive(name, getattr(self, name))
 
     def contact_radius(self, reduced_radius: FloatArray) -> FloatArray:
         """Contact radius c at zero load in m, from R* in m."""
@@ -45,15 +71,23 @@ class JKR(ContactLaw):
         material = self.material
         reduced_radius = 1 / (1 / aggregate.spheres.radii[aggregate.pairs]).sum(axis=1)
         radius = self.contact_radius(reduced_radius)
+        pull_off = 1.5 * np.pi * material.work_of_adhesion * reduced_radius
+        sliding = np.inf if self.friction is None else 2 * self.friction * pull_off
+        rolling = np.inf if self.rolling_distance is None else 4 * self.rolling_distance * pull_off
         return Bonds(
             normal=1.2 * material.contact_modulus * radius,
             tangential=4 * material.shear_modulus * radius / (2 - material.poisson_ratio),
             bending=4 / 3 * material.contact_modulus * radius**3,
             twisting=8 / 3 * material.shear_modulus * radius**3,
-            tensile_strength=1.5 * np.pi * material.work_of_adhesion * reduced_radius,
+            tensile_strength=pull_off,
+            shear_strength=np.asarray(sliding),
+            bending_strength=np.asarray(rolling),
+            twisting_strength=3 * np.pi / 16 * radius * sliding,
         )
 
 
-def jkr_bonds(aggregate: Aggregate, material: Material) -> Bonds:
+def jkr_bonds(
+    aggregate: Aggregate, material: Material, friction: float | None = None, rolling_distance: float | None = None
+) -> Bonds:
     """Bonds of an aggregate by the JKR law, see `JKR`."""
-    return JKR(material).bonds(aggregate)
+    return JKR(material, friction, rolling_distance).bonds(aggregate)

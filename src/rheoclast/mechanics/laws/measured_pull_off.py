@@ -12,6 +12,8 @@ from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.laws.law import ContactLaw
 from rheoclast.particles.aggregate import Aggregate
 
+PROPORTIONAL = ("shear_strength", "bending_strength", "twisting_strength")
+
 
 @final
 @dataclass(frozen=True)
@@ -23,7 +25,7 @@ class MeasuredPullOff(ContactLaw):
     force
         Pull-off force in N of two spheres of radius `radius`; contacts of other spheres scale with R*.
     stiffness
-        The law that gives the stiffness.
+        The law that gives the stiffness. Where it limits other loads too, these limits are changed in proportion.
     radius
         Radius in m of the two spheres of the measurement. Without it every contact gets the same force.
     """
@@ -42,4 +44,7 @@ class MeasuredPullOff(ContactLaw):
         strength = np.full(len(aggregate.pairs), self.force)
         if self.radius is not None:
             strength *= 2 / (self.radius / aggregate.spheres.radii[aggregate.pairs]).sum(axis=1)
-        return replace(self.stiffness.bonds(aggregate), tensile_strength=strength)
+        bonds = self.stiffness.bonds(aggregate)
+        share = strength / bonds.tensile_strength
+        others = {name: share * getattr(bonds, name) for name in PROPORTIONAL}
+        return replace(bonds, tensile_strength=strength, **others)

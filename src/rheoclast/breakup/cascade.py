@@ -1,0 +1,222 @@
+"""Breakup that goes on: the fragments are carried by the same flow, until all hold."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from rheoclast._checks import FloatArray, IntArray
+from rheoclast.breakup.contact_response import contact_response
+from rheoclast.breakup.crack import Rule, break_up
+from rheoclast.breakup.event import Breakup
+from rheoclast.breakup.initiation import worst_initiation
+from rheoclast.breakup.orbit import orbit_initiation
+from rheoclast.flows import LinearFlow
+from rheoclast.hydrodynamics.response import RigidResponse, rigid_response
+from rheoclast.mechanics.bonds import Bonds
+from rheoclast.mechanics.criteria.criterion import Criterion
+from rheoclast.mechanics.criteria.load_ratios import EVERY_LIMIT
+from rheoclast.particles.aggregate import Aggregate
+from rheoclast.particles.morphology import mean_coordination, radius_of_gyration, relative_shape_anisotropy
+
+Orientation = Literal["given", "worst", "orbit"]
+Progress = Callable[[str, float], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """One aggregate of a cascade, before what happens to it.
+
+    Attributes
+    ----------
+    parent
+        Position in `Cascade.pieces` of what it came from; None for the aggregate at the beginning.
+    generation
+        Number of events before it.
+    aggregate
+        Spheres, where they were at the beginning, and contacts.
+    spheres
+        Indices (n,) of its spheres in the aggregate at the beginning.
+    breakup
+        What happens to it up to the rate of the flow; None for a single sphere.
+    """
+
+    parent: int | None
+    generation: int
+    aggregate: Aggregate
+    spheres: IntArray
+    breakup: Breakup | None
+
+    @property
+    def holds(self) -> bool:
+        """Whether no contact of it fails at the rate of the flow."""
+        return self.breakup is None or not self.breakup.failures
+
+
+@dataclass(frozen=True, eq=False)
+class Cascade:
+    """What becomes of an aggregate in a flow of given rate. Made by `cascade`.
+
+    Attributes
+    ----------
+    pieces
+        All that ever was, parents before children; a piece that loses contacts without splitting has one child.
+    flow
+        The flow.
+    """
+
+    pieces: tuple[Piece, ...]
+    flow: LinearFlow
+
+    @property
+    def remaining(self) -> tuple[Aggregate, ...]:
+        """What holds in the end, the largest first."""
+        held = (piece.aggregate for piece in self.pieces if piece.holds)
+        return tuple(sorted(held, key=len, reverse=True))
+
+    @property
+    def sizes(self) -> IntArray:
+        """Numbers of spheres of what holds in the end, the largest first."""
+        return np.array([len(each) for each in self.remaining])
+
+    def children(self, position: int) -> tuple[int, ...]:
+        """Positions of the pieces that come from one."""
+        return tuple(k for k, piece in enumerate(self.pieces) if piece.parent == position)
+
+    def table(self) -> dict[str, FloatArray | IntArray]:
+        """Columns with one row per piece: who came from whom, size and shape, and what happened.
+
+        Rates are in 1/s and infinite for what holds; `parent` is −1 for the aggregate at the beginning;
+        `radius_of_gyration` is in m.
+        """
+        rows = [_row(number, piece) for number, piece in enumerate(self.pieces)]
+        return {name: np.array([row[name] for row in rows]) for name in rows[0]}
+
+
+def _row(number: int, piece: Piece) -> dict[str, Any]:
+    spheres, breakup = piece.aggregate.spheres, piece.breakup
+    return {
+        "piece": number,
+        "parent": -1 if piece.parent is None else piece.parent,
+        "generation": piece.generation,
+        "spheres": len(spheres),
+        "contacts": len(piece.aggregate.pairs),
+        "radius_of_gyration": radius_of_gyration(spheres),
+        "shape_anisotropy": relative_shape_anisotropy(spheres),
+        "coordination": mean_coordination(piece.aggregate),
+        "holds": int(piece.holds),
+        "failures": len(breakup.failures) if breakup else 0,
+        "initiation_rate": breakup.initiation_rate if breakup else np.inf,
+        "breakup_rate": breakup.breakup_rate if breakup else np.inf,
+    }
+
+
+def cascade(
+    aggregate: Aggregate,
+    response: RigidResponse,
+    bonds: Bonds,
+    flow: LinearFlow,
+    orientation: Orientation = "given",
+    rule: Rule = "weakest",
+    criterion: Criterion = EVERY_LIMIT,
+    progress: Progress | None = None,
+) -> Cascade:
+    """Breakup in a flow of given rate, and that of the fragments, until all hold.
+
+    Each fragment has its own hydrodynamics, by the model of the response, and the bonds that are left to it.
+
+    Parameters
+    ----------
+    aggregate, response, bonds
+        As in `break_up`.
+    flow
+        At the rate that the aggregate meets; contacts that would fail at higher rates hold.
+    orientation
+        "given": every fragment keeps the orientation that it had. "worst": every piece meets the flow in its worst
+        orientation for tension, as if there were time to find it. "orbit": each turns freely from the orientation
+        that it had, and meets the flow in the worst orientation along its orbit.
+    rule, criterion
+        As in `break_up`.
+    progress
+        Called as progress(step, fraction) with the share of spheres that are in pieces that hold.
+
+    Raises
+    ------
+    ValueError
+        If the orientation is not known, or as `break_up`.
+    """
+    if orientation not in ORIENTED:
+        raise ValueError(f"orientation: expected one of {', '.join(map(repr, ORIENTED))}, got {orientation!r}")
+    pieces: list[Piece] = []
+    waiting = deque([_Waiting(None, 0, aggregate, np.arange(len(aggregate)), bonds, response)])
+    settled = 0
+    while waiting:
+        each = waiting.popleft()
+        breakup = None
+        if each.response is not None:
+            turned = ORIENTED[orientation](each, flow, criterion)
+            breakup = break_up(each.aggregate, each.response, each.bonds, turned, rule, criterion, up_to=flow.rate)
+        pieces.append(Piece(each.parent, each.generation, each.aggregate, each.spheres, breakup))
+        if pieces[-1].holds:
+            settled += len(each.aggregate)
+        else:
+            waiting.extend(_fragments(each, breakup, len(pieces) - 1))
+        if progress:
+            progress("breaking", settled / len(aggregate))
+    return Cascade(tuple(pieces), flow)
+
+
+@dataclass(frozen=True, eq=False)
+class _Waiting:
+    """A piece to which nothing has happened yet; a single sphere needs no response."""
+
+    parent: int | None
+    generation: int
+    aggregate: Aggregate
+    spheres: IntArray
+    bonds: Bonds
+    response: RigidResponse | None
+
+
+def _fragments(before: _Waiting, breakup: Breakup | None, position: int) -> Iterator[_Waiting]:
+    assert breakup is not None
+    for fragment, spheres, contacts in zip(breakup.fragments, breakup.spheres, breakup.contacts, strict=True):
+        response = _response(fragment, before)
+        inside = before.spheres[spheres]
+        yield _Waiting(position, before.generation + 1, fragment, inside, before.bonds.chosen(contacts), response)
+
+
+def _response(fragment: Aggregate, before: _Waiting) -> RigidResponse | None:
+    """The hydrodynamics of a fragment by itself; that of before if it lost contacts only."""
+    assert before.response is not None
+    if len(fragment) == 1:
+        return None
+    if len(fragment) == len(before.aggregate):
+        return before.response
+    return rigid_response(fragment.spheres, before.response.model, before.response.viscosity)
+
+
+def _given(piece: _Waiting, flow: LinearFlow, criterion: Criterion) -> LinearFlow:
+    return flow
+
+
+def _worst(piece: _Waiting, flow: LinearFlow, criterion: Criterion) -> LinearFlow:
+    assert piece.response is not None
+    return worst_initiation(contact_response(piece.aggregate, piece.response, piece.bonds), piece.bonds, flow).flow
+
+
+def _along_orbit(piece: _Waiting, flow: LinearFlow, criterion: Criterion) -> LinearFlow:
+    assert piece.response is not None
+    table = contact_response(piece.aggregate, piece.response, piece.bonds)
+    return orbit_initiation(piece.response, table, piece.bonds, flow, criterion=criterion).flow
+
+
+ORIENTED: Mapping[str, Callable[[_Waiting, LinearFlow, Criterion], LinearFlow]] = {
+    "given": _given,
+    "worst": _worst,
+    "orbit": _along_orbit,
+}

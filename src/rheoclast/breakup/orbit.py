@@ -1,0 +1,80 @@
+"""The contact that fails first as an aggregate turns in the flow."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from rheoclast.breakup.contact_response import ContactResponse
+from rheoclast.breakup.initiation import Initiation
+from rheoclast.breakup.load_history import load_history
+from rheoclast.flows import LinearFlow
+from rheoclast.hydrodynamics.response import RigidResponse
+from rheoclast.hydrodynamics.trajectory import Trajectory, trajectory
+from rheoclast.mechanics.bonds import Bonds
+from rheoclast.mechanics.criteria.criterion import Criterion
+from rheoclast.mechanics.criteria.load_ratios import EVERY_LIMIT
+
+LONG = 200.0  # inverse magnitudes: a dozen turns of an open aggregate in shear
+
+
+@dataclass(frozen=True, eq=False)
+class OrbitInitiation(Initiation):
+    """The first failure of an aggregate that turns freely, in a flow whose rate is raised slowly from zero.
+
+    The orbit does not depend on the rate, which only sets how fast it is run through. `flow` is the flow in body axes
+    at the moment of failure.
+
+    Attributes
+    ----------
+    time
+        When it fails, in s of the flow as given, at its own rate, from the start of the orbit.
+    trajectory
+        The orbit in that flow.
+    """
+
+    time: float
+    trajectory: Trajectory
+
+
+def orbit_initiation(
+    response: RigidResponse,
+    table: ContactResponse,
+    bonds: Bonds,
+    flow: LinearFlow,
+    start: Any = None,
+    duration: float | None = None,
+    criterion: Criterion = EVERY_LIMIT,
+) -> OrbitInitiation:
+    """First failure along the aggregate's own rotation in a steady flow.
+
+    Parameters
+    ----------
+    response, table
+        Of the same aggregate: how it turns, and what its contacts then carry.
+    bonds
+        Strength of the contacts.
+    flow
+        In lab axes.
+    start
+        First orientation, a rotation from body to lab axes; by default the axes coincide.
+    duration
+        Length of the orbit in s; by default 200 over the flow's magnitude, a dozen turns of an open aggregate in shear.
+    criterion
+        When a contact fails.
+
+    Raises
+    ------
+    ValueError
+        If the flow has no strain, no contact has a strength, or as `trajectory`.
+    """
+    if not flow.magnitude > 0:
+        raise ValueError("flow: expected a strain rate that is not zero, got none; a rotation loads no contact")
+    orbit = trajectory(response, flow, LONG / flow.magnitude if duration is None else duration, start)
+    worst = load_history(orbit, table, bonds, criterion=criterion).maximum
+    if not worst.ratio > 0:
+        return OrbitInitiation(None, None, np.inf, flow, 0.0, orbit)
+    critical = orbit.flow(worst.time).scaled(1 / worst.ratio)
+    return OrbitInitiation(worst.contact, worst.criterion, critical.rate, critical, worst.time, orbit)

@@ -1,0 +1,183 @@
+"""What `rheoclast break` computes and leaves in a folder."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+
+from rheoclast import io, view
+from rheoclast.breakup.cascade import Cascade, cascade
+from rheoclast.breakup.contact_response import contact_response
+from rheoclast.breakup.crack import Rule, break_up
+from rheoclast.breakup.event import Breakup, Failure
+from rheoclast.breakup.initiation import worst_initiation
+from rheoclast.breakup.orbit import orbit_initiation
+from rheoclast.cli.results import finished_together
+from rheoclast.flows import LinearFlow
+from rheoclast.hydrodynamics.response import RigidResponse
+from rheoclast.mechanics.bonds import Bonds
+from rheoclast.mechanics.criteria.criterion import Criterion
+from rheoclast.particles.aggregate import Aggregate
+from rheoclast.particles.morphology import mean_coordination, radius_of_gyration, relative_shape_anisotropy
+from rheoclast.populations.orientations import random_orientations
+from rheoclast.stokes.mobility import Progress
+
+FILES = ("summary.json", "failures.csv", "fragments.csv", "pieces.csv", "crack.png", "crack.gif", "fragment_*")
+Orientation = Literal["given", "worst", "orbit", "random"]
+
+
+@dataclass(frozen=True, eq=False)
+class Broken:
+    """A breakup, and the flow in the orientation in which the aggregate met it."""
+
+    breakup: Breakup
+    flow: LinearFlow
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """An aggregate, its contacts, and the flow that is to break it."""
+
+    aggregate: Aggregate
+    response: RigidResponse
+    bonds: Bonds
+    flow: LinearFlow
+    rule: Rule
+    criterion: Criterion
+    orientation: Orientation
+
+    def broken(self, seed: int, up_to: float) -> Broken:
+        """The breakup in the chosen orientation."""
+        flow = ORIENTED[self.orientation](self, seed)
+        flow = flow.scaled(self.flow.magnitude / flow.magnitude) if self.flow.magnitude else flow
+        common = (self.aggregate, self.response, self.bonds, flow, self.rule, self.criterion)
+        return Broken(break_up(*common, up_to=up_to), flow)
+
+    def cascade(self, flow: LinearFlow, progress: Progress) -> Cascade:
+        """What becomes of the fragments at the rate of the flow; from a random orientation on, as that turned out."""
+        common = (self.aggregate, self.response, self.bonds)
+        if self.orientation == "random":
+            return cascade(*common, flow, "given", self.rule, self.criterion, progress)
+        return cascade(*common, self.flow, self.orientation, self.rule, self.criterion, progress)
+
+
+def _worst(setting: Setting, seed: int) -> LinearFlow:
+    table = contact_response(setting.aggregate, setting.response, setting.bonds)
+    return worst_initiation(table, setting.bonds, setting.flow).flow
+
+
+def _along_orbit(setting: Setting, seed: int) -> LinearFlow:
+    table = contact_response(setting.aggregate, setting.response, setting.bonds)
+    return orbit_initiation(setting.response, table, setting.bonds, setting.flow, criterion=setting.criterion).flow
+
+
+ORIENTED: Mapping[Orientation, Callable[[Setting, int], LinearFlow]] = {
+    "given": lambda setting, seed: setting.flow,
+    "worst": _worst,
+    "orbit": _along_orbit,
+    "random": lambda setting, seed: setting.flow.rotated(random_orientations(1, seed)[0]),
+}
+
+
+def breakup_summary(setting: Setting, broken: Broken, pieces: Cascade | None) -> dict[str, Any]:
+    """Everything that the command reports, ready for JSON: SI units, none where a rate is infinite."""
+    breakup, aggregate = broken.breakup, setting.aggregate
+    summary: dict[str, Any] = {
+        "spheres": len(aggregate),
+        "contacts": len(aggregate.pairs),
+        "mean_coordination": mean_coordination(aggregate),
+        "radius_of_gyration_m": radius_of_gyration(aggregate.spheres),
+        "order": setting.response.order,
+        "orientation": setting.orientation,
+        "flow_gradient_per_s": broken.flow.gradient.tolist(),
+        "rule": setting.rule,
+        "criterion": setting.criterion.name,
+        "outcome": breakup.outcome,
+        "initiation_rate_per_s": _finite(breakup.initiation_rate),
+        "breakup_rate_per_s": _finite(breakup.breakup_rate),
+        "failures": len(breakup.failures),
+        "surface": len(breakup.surface),
+        "inwardness": _finite(breakup.inwardness),
+        "near_ties": _near_ties(breakup),
+        "fragments": [len(spheres) for spheres in breakup.spheres],
+    }
+    if pieces is not None:
+        summary["cascade"] = {"rate_per_s": pieces.flow.rate, "sizes": pieces.sizes.tolist()}
+    return summary
+
+
+def _finite(value: float) -> float | None:
+    return float(value) if np.isfinite(value) else None
+
+
+def _near_ties(breakup: Breakup) -> int | None:
+    """Number of failures within the error bar; none if there is no error bar."""
+    return None if any(failure.rivals is None for failure in breakup.failures) else len(breakup.near_ties())
+
+
+def write_breakup(folder: Path, broken: Broken, pieces: Cascade | None, summary: str, animation: bool) -> None:
+    """Write tables, fragments, pictures and the summary into a folder, which is made if needed."""
+    breakup = broken.breakup
+    remaining = breakup.fragments if pieces is None else pieces.remaining
+    with finished_together(folder, FILES) as unfinished:
+        (unfinished / "summary.json").write_text(summary + "\n", encoding="utf-8")
+        if breakup.failures:
+            io.write_table(unfinished / "failures.csv", failure_table(breakup))
+        io.write_table(unfinished / "fragments.csv", fragment_table(remaining))
+        if pieces is not None:
+            io.write_table(unfinished / "pieces.csv", pieces.table())
+        digits = len(str(len(remaining)))
+        for k, fragment in enumerate(remaining):
+            _write_fragment(unfinished, f"fragment_{k + 1:0{digits}d}", fragment)
+        view.save(view.draw_crack(breakup, flow=broken.flow), unfinished / "crack.png")
+        if animation:
+            view.animate_crack(breakup, unfinished / "crack.gif", flow=broken.flow)
+
+
+def _write_fragment(folder: Path, name: str, fragment: Aggregate) -> None:
+    """Spheres, and the contacts that are left: fewer than those that touch."""
+    io.write(folder / f"{name}.dat", fragment)
+    i, j = fragment.pairs.T
+    io.write_table(folder / f"{name}_contacts.csv", {"i": i, "j": j})
+
+
+def failure_table(breakup: Breakup) -> dict[str, Any]:
+    """Columns with one row per failure, in order."""
+    failures = breakup.failures
+    surface = {failure.contact for failure in breakup.surface}
+
+    def column(value: Callable[[Failure], Any]) -> Any:
+        return np.array([value(failure) for failure in failures])
+
+    return {
+        "failure": np.arange(1, len(failures) + 1),
+        "contact": column(lambda failure: failure.contact),
+        "i": column(lambda failure: failure.pair[0]),
+        "j": column(lambda failure: failure.pair[1]),
+        "point_m": breakup.aggregate.contact_points[column(lambda failure: failure.contact)],
+        "rate_per_s": column(lambda failure: failure.rate),
+        "reached_per_s": column(lambda failure: failure.reached),
+        "overload": column(lambda failure: failure.overload),
+        "criterion": column(lambda failure: failure.criterion),
+        "margin": column(lambda failure: failure.margin),
+        "rivals": column(lambda failure: -1 if failure.rivals is None else len(failure.rivals)),
+        "radial_position": column(lambda failure: failure.radial_position),
+        "depth": column(lambda failure: failure.depth),
+        "on_surface": column(lambda failure: int(failure.contact in surface)),
+    }
+
+
+def fragment_table(fragments: tuple[Aggregate, ...]) -> dict[str, Any]:
+    """Columns with one row per fragment, the largest first."""
+    return {
+        "fragment": np.arange(1, len(fragments) + 1),
+        "spheres": np.array([len(each) for each in fragments]),
+        "contacts": np.array([len(each.pairs) for each in fragments]),
+        "radius_of_gyration_m": np.array([radius_of_gyration(each.spheres) for each in fragments]),
+        "shape_anisotropy": np.array([relative_shape_anisotropy(each.spheres) for each in fragments]),
+        "coordination": np.array([mean_coordination(each) for each in fragments]),
+    }

@@ -1,0 +1,54 @@
+"""Failure by loads that act together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from rheoclast import _checks
+from rheoclast._checks import FloatArray
+from rheoclast.mechanics.bonds import Bonds
+from rheoclast.mechanics.contact_loads import ContactLoads
+from rheoclast.mechanics.criteria.criterion import Criterion
+from rheoclast.mechanics.criteria.rolling import Rolling
+from rheoclast.mechanics.criteria.sliding import Sliding
+from rheoclast.mechanics.criteria.tension import Tension
+from rheoclast.mechanics.criteria.twisting import Twisting
+
+SINGLE = (Tension(), Sliding(), Rolling(), Twisting())
+
+
+@final
+@dataclass(frozen=True)
+class Combined(Criterion):
+    """Tension, shear, bending and twisting use up the strength together: Σ r^p = 1 with r each load over its strength.
+
+    p = 1 adds them up, as tension and bending add up in the outermost fibre of a solid bridge; p = 2 is the quadratic
+    interaction of adhesive joints. Compression neither helps nor harms. Loads whose strength is infinite do not count.
+
+    Parameters
+    ----------
+    exponent
+        p, at least 1.
+    """
+
+    exponent: float = 2.0
+
+    def __post_init__(self) -> None:
+        exponent = _checks.positive("exponent", self.exponent)
+        if exponent < 1:
+            raise ValueError(f"exponent: expected a number of at least 1, got {exponent:g}")
+
+    @property
+    def strengths(self) -> tuple[str, ...]:
+        """All four strengths."""
+        return tuple(strength for single in SINGLE for strength in single.strengths)
+
+    def load_ratio(self, loads: ContactLoads, bonds: Bonds) -> FloatArray:
+        """(Σ r^p)^(1/p) (..., C), proportional to the loads."""
+        ratios = np.stack([np.maximum(single.load_ratio(loads, bonds), 0.0) for single in SINGLE])
+        largest = ratios.max(axis=0)
+        relative = ratios / np.where(largest > 0, largest, 1.0)  # whose high powers do not vanish
+        return largest * np.linalg.norm(relative, ord=self.exponent, axis=0)

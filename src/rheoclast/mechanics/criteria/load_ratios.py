@@ -1,0 +1,44 @@
+"""How near contacts are to failure, by each of the criteria that count."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rheoclast import _checks
+from rheoclast._checks import FloatArray
+from rheoclast.mechanics.bonds import Bonds
+from rheoclast.mechanics.contact_loads import ContactLoads
+from rheoclast.mechanics.criteria.any_of import AnyOf
+from rheoclast.mechanics.criteria.criterion import Criterion
+from rheoclast.mechanics.criteria.rolling import Rolling
+from rheoclast.mechanics.criteria.sliding import Sliding
+from rheoclast.mechanics.criteria.tension import Tension
+from rheoclast.mechanics.criteria.twisting import Twisting
+
+EVERY_LIMIT: Criterion = AnyOf(Tension(), Sliding(), Rolling(), Twisting())
+"""Each load against its own strength, for the strengths that are finite: with JKR contacts tension alone."""
+
+
+def load_ratios(loads: ContactLoads, bonds: Bonds, criterion: Criterion = EVERY_LIMIT) -> FloatArray:
+    """Load over strength (..., C, K) for the K `Criterion.parts`. A contact fails where a ratio reaches one.
+
+    Compression does not fail a contact: its ratio in tension is negative. Where a strength is infinite the ratio is
+    zero, so a criterion without a limit is off.
+
+    Raises
+    ------
+    ValueError
+        If the bonds have another number of contacts.
+    """
+    _checks.instance("criterion", criterion, Criterion, "for instance Tension()")
+    bonds.strength(len(loads.normals))
+    return np.stack([part.load_ratio(loads, bonds) for part in criterion.parts], axis=-1)
+
+
+def refuse_without_strength(bonds: Bonds, criterion: Criterion) -> None:
+    """Refuse bonds that no load can break by a criterion."""
+    if not any(np.isfinite(getattr(bonds, strength)).any() for strength in criterion.strengths):
+        raise ValueError(
+            f"bonds: expected a strength of some contact for failure by {criterion.name}, got none; "
+            f"give for instance {criterion.strengths[0]}"
+        )

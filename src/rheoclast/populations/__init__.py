@@ -1,0 +1,1 @@
+"""Many orientations, many aggregates: samples and their statistics."""

@@ -1,0 +1,181 @@
+"""`rheoclast break` as a user meets it: real files in, tables, fragments and pictures out."""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+
+import rheoclast as rc
+from rheoclast.cli import main
+
+
+@pytest.fixture
+def run(capsys, tmp_path, monkeypatch):
+    """Run the command line in an empty folder; returns exit status, standard output and standard error."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "120")
+
+    def run(*arguments):
+        with pytest.raises(SystemExit) as stop:
+            main([str(argument) for argument in arguments])
+        return (stop.value.code or 0, *capsys.readouterr())
+
+    return run
+
+
+@pytest.fixture
+def compact(tmp_path):
+    """File of a cluster of thirty spheres of half a micrometre with loops."""
+    aggregate = rc.generation.compacted_cluster(30, radius=0.5e-6, amount=0.4, seed=1)
+    rc.write(tmp_path / "floc.dat", aggregate)
+    return tmp_path / "floc.dat"
+
+
+def rows(path):
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def setting(path):
+    aggregate = rc.read(path)
+    response = rc.rigid_response(aggregate.spheres, rc.StokesianDynamics(), viscosity=1e-3)
+    return aggregate, response, rc.jkr_bonds(aggregate, rc.MATERIALS["polystyrene"])
+
+
+def test_agrees_with_the_library(run, compact, tmp_path):
+    status, out, err = run("break", compact, "--flow", "uniaxial", "--output", "out", "--json")
+    assert (status, err) == (0, "")
+    report = json.loads(out)
+    expected = rc.break_up(*setting(compact), rc.uniaxial_extension(1.0))
+    assert report["breakup_rate_per_s"] == pytest.approx(expected.breakup_rate, rel=1e-9)
+    assert report["initiation_rate_per_s"] == pytest.approx(expected.initiation_rate, rel=1e-9)
+    assert report["fragments"] == [len(each) for each in expected.fragments]
+    assert report["near_ties"] == len(expected.near_ties())
+    written = rows(tmp_path / "out" / "failures.csv")
+    assert [int(row["contact"]) for row in written] == [failure.contact for failure in expected.failures]
+    assert [float(row["rate_per_s"]) for row in written] == [failure.rate for failure in expected.failures]
+    assert sum(int(row["on_surface"]) for row in written) == report["surface"] == len(expected.surface)
+
+
+def test_fragments_can_be_read_back(run, compact, tmp_path):
+    """With the contacts that are left, which are fewer than those that touch."""
+    run("break", compact, "--flow", "uniaxial", "--output", "out")
+    expected = rc.break_up(*setting(compact), rc.uniaxial_extension(1.0))
+    fewer = 0
+    for k, fragment in enumerate(expected.fragments):
+        name = tmp_path / "out" / f"fragment_{k + 1}"
+        found = rc.read(f"{name}.dat", contacts=f"{name}_contacts.csv")
+        np.testing.assert_allclose(found.spheres.centers, fragment.spheres.centers, rtol=0, atol=1e-20)
+        np.testing.assert_array_equal(found.pairs, fragment.pairs)
+        fewer += len(rc.Aggregate.touching(found.spheres).pairs) - len(found.pairs)
+    assert fewer > 0
+    assert [int(row["spheres"]) for row in rows(tmp_path / "out" / "fragments.csv")] == [
+        len(each) for each in expected.fragments
+    ]
+
+
+def test_pictures(run, compact, tmp_path):
+    from PIL import Image
+
+    assert run("break", compact, "--output", "out", "--animation")[0] == 0
+    with Image.open(tmp_path / "out" / "crack.png") as picture:
+        assert min(picture.size) > 300
+        assert len(set(picture.convert("L").resize((64, 64)).tobytes())) > 10
+    with Image.open(tmp_path / "out" / "crack.gif") as film:
+        assert film.n_frames > 2
+
+
+def test_screen(run, compact):
+    status, out, _ = run("break", compact)
+    assert status == 0
+    expected = rc.break_up(*setting(compact), rc.simple_shear(1.0))
+    assert f"breaks by a crack of {len(expected.failures)} failures" in out
+    assert f"{expected.breakup_rate:.4g} 1/s" in out
+    first = expected.failures[0]
+    assert f"{first.pair[0]}–{first.pair[1]}" in out
+
+
+@pytest.mark.parametrize("orientation", ["worst", "orbit", "random"])
+def test_orientation(run, compact, orientation):
+    given = json.loads(run("break", compact, "--json")[1])
+    turned = json.loads(run("break", compact, "--orientation", orientation, "--seed", 3, "--json")[1])
+    gradient = np.array(turned["flow_gradient_per_s"])
+    np.testing.assert_allclose(np.linalg.norm(gradient), 1, rtol=1e-9)
+    assert turned["initiation_rate_per_s"] != given["initiation_rate_per_s"]
+    if orientation != "random":
+        assert turned["initiation_rate_per_s"] < given["initiation_rate_per_s"]
+    if orientation == "worst":
+        aggregate, response, bonds = setting(compact)
+        table = rc.contact_response(aggregate, response, bonds)
+        worst = rc.worst_initiation(table, bonds, rc.simple_shear(1.0)).rate
+        assert turned["initiation_rate_per_s"] == pytest.approx(worst, rel=1e-9)
+
+
+def test_cascade(run, compact, tmp_path):
+    rate = 4 * json.loads(run("break", compact, "--json")[1])["breakup_rate_per_s"]
+    _, out, _ = run("break", compact, "--rate", rate, "--cascade", "--json", "--output", "out")
+    expected = rc.cascade(*setting(compact), rc.simple_shear(rate))
+    assert json.loads(out)["cascade"]["sizes"] == expected.sizes.tolist()
+    pieces = rows(tmp_path / "out" / "pieces.csv")
+    assert [int(row["parent"]) for row in pieces] == expected.table()["parent"].tolist()
+    assert len(list((tmp_path / "out").glob("fragment_*.dat"))) == len(expected.remaining)
+
+
+def test_fewer_fragments_leave_none_of_an_earlier_run(run, compact, tmp_path):
+    rate = 4 * json.loads(run("break", compact, "--json")[1])["breakup_rate_per_s"]
+    run("break", compact, "--rate", rate, "--cascade", "--output", "out")
+    status, _, err = run("break", compact, "--output", "out")
+    assert status == 1
+    assert "already there; add --overwrite to replace" in err
+    assert run("break", compact, "--output", "out", "--overwrite")[0] == 0
+    assert not (tmp_path / "out" / "pieces.csv").exists()
+    assert len(list((tmp_path / "out").glob("fragment_*.dat"))) == 2
+
+
+def test_criteria(run, compact):
+    arguments = ["--friction", 0.3, "--rolling-distance", 1e-9]
+    by = {
+        name: json.loads(run("break", compact, *arguments, "--criterion", name, "--json")[1])["initiation_rate_per_s"]
+        for name in ("every-limit", "tension", "sliding", "rolling", "twisting", "combined")
+    }
+    single = [by[name] for name in ("tension", "sliding", "rolling", "twisting")]
+    assert by["every-limit"] == pytest.approx(min(single), rel=1e-12)
+    assert by["combined"] < min(single)
+
+
+def test_compression_only(run, tmp_path):
+    (tmp_path / "doublet.dat").write_text("0 0 0 1\n2 0 0 1\n")
+    status, out, _ = run("break", "doublet.dat", "--unit", "um", "--flow", "uniaxial", "--output", "out")
+    assert status == 0
+    assert "stays whole: no contact is pulled apart" in out
+    assert (tmp_path / "out" / "crack.png").exists()
+    assert not (tmp_path / "out" / "failures.csv").exists()
+
+
+def test_up_to(run, compact):
+    report = json.loads(run("break", compact, "--json")[1])
+    below = 0.5 * (report["initiation_rate_per_s"] + report["breakup_rate_per_s"])
+    held = json.loads(run("break", compact, "--up-to", below, "--json")[1])
+    assert held["outcome"] == "whole"
+    assert held["breakup_rate_per_s"] is None
+    assert 0 < held["failures"] < report["failures"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--cascade"], "--cascade: fragments break at the rate of the flow; give --rate or --gradient"),
+        (["--gradient", "0 -1 0 1 0 0 0 0 0"], "flow: expected a strain rate that is not zero, got none"),
+        (["--criterion", "rolling"], "expected a strength of some contact for failure by rolling, got none"),
+        (["--stiffness", 1, 1, 1, 1, "--pull-off", 1, "--friction", 1], "explicit stiffness has no law for them"),
+        (["--up-to", "-1"], "up_to: expected a positive number, got -1"),
+        (["--friction", "-1"], "friction: expected a positive number, got -1"),
+    ],
+)
+def test_refusals(run, compact, tmp_path, arguments, message):
+    status, out, err = run("break", compact, *arguments, "--output", "out")
+    assert (status, out) == (1, "")
+    assert err.count("\n") == 1
+    assert message in err
+    assert not (tmp_path / "out").exists()
