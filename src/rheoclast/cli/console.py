@@ -16,7 +16,7 @@ SECONDS_WITHOUT_PROGRESS = 2.0
 WORTH_TELLING = 1e9  # bytes
 INTERRUPTED = 130  # exit status
 
-REFUSALS = (ValueError, TypeError, OSError, ArithmeticError, MemoryError)
+REFUSALS = (ValueError, TypeError, OSError, ArithmeticError, MemoryError, ImportError)
 UsageProblem: type[typer.BadParameter] = typer.BadParameter.__mro__[2]  # the exception of all wrong options
 
 screen = Console(highlight=False)

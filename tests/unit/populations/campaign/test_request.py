@@ -1,0 +1,162 @@
+"""Campaign files: what they ask for, and how they are refused."""
+
+from pathlib import Path
+
+import pytest
+
+import rheoclast as rc
+
+pytest.importorskip("msgspec")
+pytest.importorskip("pyarrow")
+
+from rheoclast.populations.campaign import read_campaign
+
+BASE = {
+    "viscosity": "1e-3",
+    "radius": "0.5e-6",
+    "sizes": "[10, 20]",
+    "flows": '["shear"]',
+    "orientations": "{ number = 3 }",
+    "materials": '["polystyrene"]',
+    "families": '[{ name = "cluster-cluster" }]',
+}
+
+
+def campaign(folder, **changed):
+    """The campaign of `BASE` with some values changed, or left out if None."""
+    path = folder / "campaign.toml"
+    lines = {key: value for key, value in {**BASE, **changed}.items() if value is not None}
+    path.write_text("\n".join(f"{key} = {value}" for key, value in lines.items()), encoding="utf-8")
+    return read_campaign(path)
+
+
+def test_lists_mean_every_combination(tmp_path):
+    families = """[
+        { name = "cluster-cluster", fractal_dimension = [1.8, 2], prefactor = 1.3 },
+        { name = "straight-chain", count = 7, radius = 1e-6 },
+        { name = "lattice-block", lattice = ["fcc", "hcp"], counts = [[3, 3, 2], [2, 2, 2]] },
+    ]"""
+    tasks = campaign(tmp_path, families=families, seeds="{ number = 3, first = 5 }").tasks()
+    clusters = [task for task in tasks if task.family == "cluster-cluster"]
+    assert [(task.parameters["count"], task.parameters["fractal_dimension"], task.replicate) for task in clusters] == [
+        (size, dimension, replicate) for size in (10, 20) for dimension in (1.8, 2.0) for replicate in (5, 6, 7)
+    ]
+    assert all(task.parameters["prefactor"] == 1.3 and task.parameters["radius"] == 0.5e-6 for task in clusters)
+    (chain,) = (task for task in tasks if task.family == "straight-chain")
+    assert chain.parameters == {"count": 7, "radius": 1e-6}
+    assert chain.seed is None
+    blocks = [task.parameters for task in tasks if task.family == "lattice-block"]
+    assert [(block["lattice"], block["counts"]) for block in blocks] == [
+        (lattice, counts) for lattice in ("fcc", "hcp") for counts in ((3, 3, 2), (2, 2, 2))
+    ]
+
+
+def test_every_family_can_be_asked_for(tmp_path):
+    needed = {
+        "bend": "0.2",
+        "coordination": "4",
+        "amount": "0.5",
+        "arm": "2",
+        "lattice": '"fcc"',
+        "counts": "[[2, 2, 2]]",
+    }
+    for name in rc.generation.FAMILIES:
+        complaint = f'[{{ name = "{name}" }}]'
+        for _ in needed:
+            try:
+                tasks = campaign(tmp_path, families=complaint).tasks()
+                break
+            except ValueError as error:
+                key = str(error).rpartition(" ")[2]
+                complaint = complaint.replace(" }", f", {key} = {needed[key]} }}")
+        assert len(tasks[0].grown()) > 1
+
+
+def test_what_is_asked_for_twice_is_done_once(tmp_path):
+    assert len(campaign(tmp_path, sizes="[10, 10]").tasks()) == 1
+
+
+def test_seeds_follow_from_what_an_aggregate_is(tmp_path):
+    """Neither the other aggregates nor the conditions matter, but the campaign's seed does."""
+    few = campaign(tmp_path, sizes="[20]").tasks()
+    many = campaign(
+        tmp_path, seeds="{ number = 4 }", viscosity="2e-3", materials='[{ name = "polystyrene", pull_off = 1e-9 }]'
+    )
+    other = campaign(tmp_path, sizes="[20]", seed="1").tasks()
+    seeds = {task.parameters["count"]: task.seed for task in reversed(many.tasks())}
+    assert seeds[20] == few[0].seed != other[0].seed
+    assert few[0].digest not in {task.digest for task in many.tasks()}
+    drawn = [task.seed for task in many.tasks()] + [task.orientation_seed for task in many.tasks()]
+    assert len(set(drawn)) == len(drawn)
+    assert all(0 <= seed < 2**63 for seed in drawn)
+
+
+def test_equal_requests_are_equal_however_they_are_written(tmp_path):
+    assert campaign(tmp_path, viscosity="1.0e-3", radius="5e-7") == campaign(tmp_path)
+    assert campaign(tmp_path, event='"breakup"') != campaign(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"viscosity": None}, "missing key viscosity"),
+        ({"viscosity": '"thick"'}, "viscosity: expected float, got str"),
+        ({"viscosity": "-1.0"}, "viscosity: expected a positive number, got -1"),
+        ({"radius": "0"}, "radius: expected a positive number, got 0"),
+        ({"up_to": "0.0"}, "up_to: expected a positive number, got 0"),
+        ({"sizes": "[10, 0]"}, r"sizes\[1\]: expected int >= 1"),
+        (
+            {"sizes": None},
+            r"families\[0\]: sizes: cluster-cluster needs numbers of spheres; give sizes, or the family its own count",
+        ),
+        ({"colour": "1"}, "unknown key colour"),
+        ({"event": '"lunch"'}, "event: expected one of first failure, breakup, got 'lunch'"),
+        ({"rule": '"strongest"'}, "rule: expected one of weakest, overloaded, got 'strongest'"),
+        ({"criterion": '"taste"'}, "criterion: expected one of every-limit, .*, got 'taste'"),
+        ({"criterion": '"sliding"'}, "criterion: 'sliding' never fails 'polystyrene': .*shear_strength"),
+        ({"orientations": '"best"'}, "orientations: expected 'worst' or { number = … }, got 'best'"),
+        ({"orientations": "{ number = 0 }"}, "orientations.number: expected int >= 1"),
+        ({"flows": "[]"}, "flows: expected list of length >= 1"),
+        ({"flows": '["twirl"]'}, "flows: expected one of shear, uniaxial, biaxial, planar, got 'twirl'"),
+        ({"flows": '["shear", "shear"]'}, "flows: expected different names, got 'shear' 2 times"),
+        ({"flows": '[{ name = "a" }]'}, r"flows\[0\]: missing key gradient"),
+        ({"flows": '[{ name = "a", gradient = [[1, 0, 0], [0, 0, 0], [0, 0, 0]] }]'}, r"flows\[0\]: gradient: .*trace"),
+        ({"flows": '[{ name = "a", gradient = [[0, 1, 0], [-1, 0, 0], [0, 0, 0]] }]'}, r"flows\[0\]: .* a rotation"),
+        ({"materials": '["cheese"]'}, "youngs_modulus: 'cheese' is none of the known materials"),
+        ({"materials": '[{ name = "a", stiffness = [1, 1, 1, 1] }]'}, r"materials\[0\]: stiffness: .*add pull_off"),
+        (
+            {"materials": '[{ name = "a", stiffness = [1, 1, 1, 1], pull_off = 1, friction = 0.1 }]'},
+            r"materials\[0\]: friction, rolling_distance: explicit stiffness has no law",
+        ),
+        ({"hydrodynamics": '{ model = "magic" }'}, "hydrodynamics: model: expected one of stokesian, .*, got 'magic'"),
+        ({"hydrodynamics": "{ order = 0 }"}, "hydrodynamics: .*order"),
+        ({"families": "[]"}, "families: expected list of length >= 1"),
+        ({"families": '[{ name = "weed" }]'}, r"families\[0\]: name: expected one of straight-chain, .*, got 'weed'"),
+        ({"families": '[{ name = "ring", bend = 1 }]'}, r"families\[0\]: unknown key bend"),
+        ({"families": '[{ name = "bent-chain" }]'}, r"families\[0\]: missing key bend"),
+        (
+            {"families": '[{ name = "bent-chain", bend = "a" }]'},
+            r"families\[0\]: bend: expected float \| list, got str",
+        ),
+        ({"viscosity": ""}, "Invalid value"),
+    ],
+)
+def test_refusals_name_file_and_key(tmp_path, changed, message):
+    with pytest.raises(ValueError, match=rf"campaign\.toml: {message}"):
+        campaign(tmp_path, **changed)
+
+
+@pytest.mark.parametrize(("changed", "message"), [({"radius": "0.5"}, "exceed 1 mm"), ({"viscosity": "1e6"}, "Pa s")])
+def test_units_that_are_probably_wrong(tmp_path, changed, message):
+    with pytest.warns(rc.UnitWarning, match=message):
+        campaign(tmp_path, **changed)
+
+
+def test_missing_file(tmp_path):
+    with pytest.raises(FileNotFoundError, match=r"nothing\.toml: there is no such file"):
+        read_campaign(tmp_path / "nothing.toml")
+
+
+def test_the_example_is_understood():
+    example = read_campaign(Path(__file__).parents[4] / "examples" / "campaign.toml")
+    assert len(example.tasks()) == 2 * (2 + 2) * 5
