@@ -16,26 +16,46 @@ from rheoclast.breakup.crack import Rule, break_up
 from rheoclast.breakup.event import Breakup, Failure
 from rheoclast.breakup.initiation import worst_initiation
 from rheoclast.breakup.orbit import orbit_initiation
+from rheoclast.cli.analysis import Analysis
 from rheoclast.cli.results import finished_together
+from rheoclast.cli.tables import contact_table, sphere_table
+from rheoclast.cli.units import Units
 from rheoclast.flows import LinearFlow
 from rheoclast.hydrodynamics.response import RigidResponse
 from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.criteria.criterion import Criterion
+from rheoclast.mechanics.criteria.load_ratios import load_ratios
 from rheoclast.particles.aggregate import Aggregate
 from rheoclast.particles.morphology import mean_coordination, radius_of_gyration, relative_shape_anisotropy
 from rheoclast.populations.orientations import random_orientations
 from rheoclast.stokes.mobility import Progress
 
-FILES = ("summary.json", "failures.csv", "fragments.csv", "pieces.csv", "crack.png", "crack.gif", "fragment_*")
+FILES = (
+    "summary.json",
+    "contacts.csv",
+    "spheres.csv",
+    "failures.csv",
+    "fragments.csv",
+    "pieces.csv",
+    "crack.png",
+    "crack.gif",
+    "report.html",
+    "fragment_*",
+)
 Orientation = Literal["given", "worst", "orbit", "random"]
 
 
 @dataclass(frozen=True, eq=False)
 class Broken:
-    """A breakup, and the flow in the orientation in which the aggregate met it."""
+    """A breakup, the flow in the orientation in which the aggregate met it, and the loads before it breaks.
+
+    These are at the rate at which the first contact fails, or at that of the flow where none does.
+    """
 
     breakup: Breakup
     flow: LinearFlow
+    intact: Analysis
+    criterion: Criterion
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +75,13 @@ class Setting:
         flow = ORIENTED[self.orientation](self, seed)
         flow = flow.scaled(self.flow.magnitude / flow.magnitude) if self.flow.magnitude else flow
         common = (self.aggregate, self.response, self.bonds, flow, self.rule, self.criterion)
-        return Broken(break_up(*common, up_to=up_to), flow)
+        breakup = break_up(*common, up_to=up_to)
+        return Broken(breakup, flow, self._intact(breakup, flow), self.criterion)
+
+    def _intact(self, breakup: Breakup, flow: LinearFlow) -> Analysis:
+        critical = flow.scaled(breakup.initiation_rate / flow.rate) if breakup.failures else flow
+        table = contact_response(self.aggregate, self.response, self.bonds)
+        return Analysis(self.aggregate, critical, self.bonds, self.response, table)
 
     def cascade(self, flow: LinearFlow, progress: Progress) -> Cascade:
         """What becomes of the fragments at the rate of the flow; from a random orientation on, as that turned out."""
@@ -91,18 +117,23 @@ def breakup_summary(setting: Setting, broken: Broken, pieces: Cascade | None) ->
         "contacts": len(aggregate.pairs),
         "mean_coordination": mean_coordination(aggregate),
         "radius_of_gyration_m": radius_of_gyration(aggregate.spheres),
+        "model": type(setting.response.model).__name__,
         "order": setting.response.order,
+        "viscosity_Pa_s": setting.response.viscosity,
         "orientation": setting.orientation,
         "flow_gradient_per_s": broken.flow.gradient.tolist(),
+        "flow_rate_per_s": broken.flow.rate,
         "rule": setting.rule,
         "criterion": setting.criterion.name,
         "outcome": breakup.outcome,
         "initiation_rate_per_s": _finite(breakup.initiation_rate),
+        "initiation_rate_error": _initiation_error(broken),
         "breakup_rate_per_s": _finite(breakup.breakup_rate),
         "failures": len(breakup.failures),
         "surface": len(breakup.surface),
         "inwardness": _finite(breakup.inwardness),
         "near_ties": _near_ties(breakup),
+        "contact_loads_at_rate_per_s": broken.intact.flow.rate,
         "fragments": [len(spheres) for spheres in breakup.spheres],
     }
     if pieces is not None:
@@ -112,6 +143,15 @@ def breakup_summary(setting: Setting, broken: Broken, pieces: Cascade | None) ->
 
 def _finite(value: float) -> float | None:
     return float(value) if np.isfinite(value) else None
+
+
+def _initiation_error(broken: Broken) -> float | None:
+    """Expected relative error of the initiation rate from truncation: that of the tension that breaks the contact."""
+    failures, error = broken.breakup.failures, broken.intact.truncation
+    if not failures or failures[0].criterion != "tension" or error is None:
+        return None
+    first = failures[0].contact
+    return float(error.tension[first] / broken.intact.contact_loads.tension[first])
 
 
 def _near_ties(breakup: Breakup) -> int | None:
@@ -125,6 +165,8 @@ def write_breakup(folder: Path, broken: Broken, pieces: Cascade | None, summary:
     remaining = breakup.fragments if pieces is None else pieces.remaining
     with finished_together(folder, FILES) as unfinished:
         (unfinished / "summary.json").write_text(summary + "\n", encoding="utf-8")
+        io.write_table(unfinished / "contacts.csv", intact_table(broken))
+        io.write_table(unfinished / "spheres.csv", sphere_table(broken.intact, Units()) | fragment_column(breakup))
         if breakup.failures:
             io.write_table(unfinished / "failures.csv", failure_table(breakup))
         io.write_table(unfinished / "fragments.csv", fragment_table(remaining))
@@ -143,6 +185,21 @@ def _write_fragment(folder: Path, name: str, fragment: Aggregate) -> None:
     io.write(folder / f"{name}.dat", fragment)
     i, j = fragment.pairs.T
     io.write_table(folder / f"{name}_contacts.csv", {"i": i, "j": j})
+
+
+def intact_table(broken: Broken) -> dict[str, Any]:
+    """Columns with one row per contact before any has failed; `load_ratio` is that of the criterion in use."""
+    intact = broken.intact
+    ratios = load_ratios(intact.contact_loads, intact.bonds, broken.criterion)
+    return contact_table(intact, Units()) | {"load_ratio": ratios.max(axis=-1)}
+
+
+def fragment_column(breakup: Breakup) -> dict[str, Any]:
+    """Column with the fragment that each sphere is in once the aggregate is split, the largest being 1."""
+    number = np.empty(len(breakup.aggregate), dtype=np.intp)
+    for k, spheres in enumerate(breakup.spheres):
+        number[spheres] = k + 1
+    return {"fragment": number}
 
 
 def failure_table(breakup: Breakup) -> dict[str, Any]:
