@@ -1,7 +1,8 @@
 """Time of a running crack: joints removed one after the other, against assembling and factorizing for each anew.
 
 Always the joint of largest tension goes, in a uniaxial extension of free-draining spheres, until the frame falls apart
-or `--joints` are gone.
+or `--joints` are gone. A second table has whole events of 300 spheres, from the known response to the fragments, in
+random orientations at order 2, with and without the ties that the error bar of the hydrodynamics tells.
 
 python benchmarks/removal.py [--joints 300] [--largest 3000]
 """
@@ -11,6 +12,7 @@ from __future__ import annotations
 import argparse
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from rich.console import Console
@@ -21,12 +23,14 @@ from rheoclast.frames.removal import CollapseError, LoadedFrame, removable_frame
 from rheoclast.frames.springs import spring_frame
 
 SIZES = (300, 1_000, 3_000)
+EVENTS, SPHERES_OF_EVENTS = 5, 300
 ANEW = 5  # solutions anew along a crack
 STIFFNESS = (1.0, 0.8, 5.7e-3, 7.7e-3)
 
 FAMILIES: dict[str, Callable[[int], rc.Aggregate]] = {
     "fcc ball": lambda count: rc.generation.lattice_ball("fcc", count),
     "packed ball": lambda count: rc.generation.random_packed_ball(count, seed=1),
+    "compacted, half": lambda count: rc.generation.compacted_cluster(count, amount=0.5, seed=1),
 }
 
 
@@ -87,8 +91,22 @@ def row(name: str, count: int, joints: int) -> tuple[str, ...]:
     return (name, str(count), f"{2 * len(pairs) / count:.2f}", str(removed), *figures)
 
 
+def event_row(name: str) -> tuple[str, ...]:
+    """Seconds of a whole event."""
+    aggregate = FAMILIES[name](SPHERES_OF_EVENTS)
+    response = rc.rigid_response(aggregate.spheres, rc.StokesianDynamics(), viscosity=1.0)
+    bonds = rc.Bonds(*STIFFNESS, tensile_strength=1.0)
+    flows = [rc.uniaxial_extension(1.0).rotated(each) for each in rc.random_orientations(EVENTS, seed=1)]
+    seconds, failures = [], []
+    for each in (response, replace(response, coarser=None)):
+        start = time.perf_counter()
+        failures = [len(rc.break_up(aggregate, each, bonds, flow).failures) for flow in flows]
+        seconds.append((time.perf_counter() - start) / EVENTS)
+    return (name, f"{np.mean(failures):.0f}", *(f"{each:.2f}" for each in seconds))
+
+
 def main() -> None:
-    """Print the table; the time of a removal includes its share of the first factorization."""
+    """Print the tables; the time of a removal includes its share of the first factorization."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--joints", type=int, default=300)
     parser.add_argument("--largest", type=int, default=SIZES[-1])
@@ -99,7 +117,12 @@ def main() -> None:
     for name in FAMILIES:
         for count in (size for size in SIZES if size <= arguments.largest):
             table.add_row(*row(name, count, arguments.joints))
-    Console(width=120).print(table)
+    events = Table("", "failures", "event, s", "without error bar, s", title=f"{SPHERES_OF_EVENTS} spheres")
+    for name in FAMILIES:
+        events.add_row(*event_row(name))
+    console = Console(width=120)
+    console.print(table)
+    console.print(events)
 
 
 if __name__ == "__main__":
