@@ -53,7 +53,7 @@ def draw_load_distribution(values: ArrayLike, *, quantity: str = "tension", unit
     low = -largest if given.min() < 0 else 0.0
     edges = np.linspace(low, largest, BARS + 1)
     for part, colour in ((given >= 0, EXTENDED), (given < 0, SHORTENED)):
-        axes.hist(given[part] / divisor, edges, color=colour, alpha=0.85, edgecolor="white", linewidth=0.4)
+        axes.hist(given[part] / divisor, edges.tolist(), color=colour, alpha=0.85, edgecolor="white", linewidth=0.4)
     return figure
 
 
@@ -177,8 +177,8 @@ def draw_convergence(table: ContactResponse, flow: LinearFlow) -> Figure:
     if len(orders) < 2:
         raise ValueError("table: expected hydrodynamics of order 2 or higher to compare orders, got no lower order")
     figure, axes = _chart("multipole order", f"difference from order {table.order}, share of the load")
-    loads = {each.order: each.loads(flow) for each in orders}
-    finest, lower = loads.pop(table.order), list(loads)
+    loads = {int(each.order or 0): each.loads(flow) for each in orders}
+    finest, lower = loads.pop(int(table.order or 0)), list(loads)
     for name, colour, marker in zip(("tension", "shear", "bending", "twisting"), SERIES, MARKERS, strict=False):
         exact = getattr(finest, name)
         whole = finest.force if name in ("tension", "shear") else finest.moment
