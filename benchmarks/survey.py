@@ -16,9 +16,9 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from rheoclast.populations.campaign import Campaign, survey
-from rheoclast.populations.campaign.conditions import Orientations
-from rheoclast.populations.campaign.request import Seeds
+from rheoclast.campaigns import Campaign, survey
+from rheoclast.campaigns.conditions import Orientations
+from rheoclast.campaigns.request import Seeds
 
 WHOLE = 1_000
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -12,12 +13,18 @@ from rich.markup import escape
 from rich.table import Table
 
 from rheoclast.cli.console import INTERRUPTED, messages, progress_bar, screen
+from rheoclast.fits import CONFIDENCE
+from rheoclast.populations.breakage_rate import poisson_rate
 
 if TYPE_CHECKING:
-    from rheoclast.populations.campaign import Survey
+    import pyarrow as pa
+
+    from rheoclast.campaigns import Survey
 
 QUANTILES = (0.05, 0.5, 0.95)
 MOST_REASONS = 5
+INITIATION_COLUMNS = ["family", "initiation_rate_per_s"]
+HISTORY_COLUMNS = ["family", "material", "dissipation_m2_per_s3", "time_s", "failed", "overloaded"]
 
 
 def survey_command(
@@ -37,14 +44,14 @@ def survey_command(
     ] = None,
     retry: Annotated[bool, typer.Option("--retry", help="Do again what failed.")] = False,
 ) -> None:
-    """Break many aggregates: families, sizes, seeds, orientations and materials, as a campaign file asks for them.
+    """Break many aggregates: families, sizes, seeds and materials, in flows or turbulence, as a campaign file asks.
 
     Stopped at any moment, it goes on where it was when the same command is given again.
 
     [bold]Example:[/bold] rheoclast survey campaign.toml --output results
     """
     try:
-        from rheoclast.populations.campaign import read_campaign, survey
+        from rheoclast.campaigns import read_campaign, survey
     except ModuleNotFoundError as error:
         raise ImportError(f"survey needs the package {error.name}: pip install 'rheoclast[survey]'") from None
     campaign = read_campaign(file)
@@ -62,13 +69,13 @@ def survey_command(
         kept = f"{finished[0]} of {finished[1]} aggregates are finished and kept in {folder}"
         messages.print(f"interrupted; {kept}; to go on, give the same command again", soft_wrap=True, markup=False)
         raise SystemExit(INTERRUPTED) from None
-    _show(results)
+    _show(results, campaign.event)
 
 
-def _show(results: Survey) -> None:
+def _show(results: Survey, event: str) -> None:
     """Print counts, failures, rates, and where the files are."""
     aggregates = results.table("aggregates", ["task", "material", "failure"])
-    events = results.table("events", ["family", "initiation_rate_per_s"])
+    events = results.table("events", HISTORY_COLUMNS if event == "history" else INITIATION_COLUMNS)
     reasons = Counter(aggregates["failure"].drop_null().to_pylist())
     materials = len(aggregates["material"].unique())
     screen.print(
@@ -80,18 +87,50 @@ def _show(results: Survey) -> None:
         for reason, number in reasons.most_common(MOST_REASONS):
             screen.print(f"  {number} × {reason}", markup=False)
     if events.num_rows:
-        families = np.array(events["family"].to_pylist())
-        screen.print(_rates(families, events["initiation_rate_per_s"].to_numpy()))
+        for table in _breakage_rates(events) if event == "history" else _initiation_rates(events):
+            screen.print(table)
     screen.print(f"written to {results.events} and {results.aggregates}", soft_wrap=True, markup=False)
 
 
-def _rates(families: np.ndarray, rates: np.ndarray) -> Table:
-    table = Table(title="initiation rate, 1/s: quantiles", title_justify="left")
-    table.add_column("family", no_wrap=True)
-    for heading in ("events", *(f"{quantile:.0%}" for quantile in QUANTILES)):
-        table.add_column(heading, justify="right", no_wrap=True)
+def _initiation_rates(events: pa.Table) -> Iterator[Table]:
+    """Quantiles of the rate of the flow at the first failure."""
+    families, rates = (events[name].to_numpy() for name in INITIATION_COLUMNS)
+    title = "initiation rate, 1/s: quantiles"
+    rows = []
     for family in dict.fromkeys(families.tolist()):
         own = rates[families == family]
         values = np.quantile(own, QUANTILES, method="inverted_cdf")  # by which infinite rates are no obstacle
-        table.add_row(family, str(len(own)), *(f"{value:.3g}" for value in values))
+        rows.append((family, str(len(own)), *(f"{value:.3g}" for value in values)))
+    yield _table(title, ("family", "events", *(f"{quantile:.0%}" for quantile in QUANTILES)), rows)
+
+
+def _breakage_rates(events: pa.Table) -> Iterator[Table]:
+    """First failures over the time in which they may have happened; those overloaded from the start have none."""
+    *kind, dissipation = HISTORY_COLUMNS[:3]
+    groups = events.group_by(HISTORY_COLUMNS[:3], use_threads=False)
+    rows = defaultdict(list)
+    for each in groups.aggregate([(name, "sum") for name in HISTORY_COLUMNS[3:]]).to_pylist():
+        overloaded = each["overloaded_sum"]
+        rate = _breakage_rate(each["failed_sum"] - overloaded, each["time_s_sum"])
+        rows[tuple(each[name] for name in kind)].append((f"{each[dissipation]:.3g}", str(overloaded), *rate))
+    headings = ("m²/s³", "overloaded", "failures", "1/s", f"{CONFIDENCE:.0%} interval")
+    for (family, material), own in rows.items():
+        yield _table(f"{family}, {material}: breakage rate by dissipation", headings, own)
+
+
+def _breakage_rate(failures: int, time: float) -> tuple[str, str, str]:
+    """Failures, rate and interval, the last two empty where there was no time."""
+    if not time:
+        return str(failures), "", ""
+    found = poisson_rate(failures, time)
+    lower, upper = found.interval
+    return str(failures), f"{found.rate:.3g}", f"{lower:.3g} to {upper:.3g}"
+
+
+def _table(title: str, headings: Iterable[str], rows: Iterable[tuple[str, ...]]) -> Table:
+    table = Table(title=escape(title), title_justify="left")
+    for k, heading in enumerate(headings):
+        table.add_column(heading, justify="right" if k else "left", no_wrap=True)
+    for row in rows:
+        table.add_row(*map(escape, row))
     return table

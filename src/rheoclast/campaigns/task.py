@@ -1,4 +1,4 @@
-"""One unit of work: one aggregate with all its materials, flows and orientations."""
+"""One unit of work: one aggregate with all its materials, and all flows or histories that it meets."""
 
 from __future__ import annotations
 
@@ -17,13 +17,14 @@ from rheoclast._threads import one_blas_thread
 from rheoclast.breakup.crack import Rule
 from rheoclast.generation.families import FAMILIES
 from rheoclast.hydrodynamics.response import RigidResponse, rigid_response
-from rheoclast.mechanics.criteria.criterion import Criterion
 from rheoclast.particles.aggregate import Aggregate
 from rheoclast.particles.morphology import mean_coordination, radius_of_gyration
-from rheoclast.populations.campaign.conditions import Conditions, ContactMaterial, Orientations
-from rheoclast.populations.campaign.events import EVENTS, Setting
-from rheoclast.populations.campaign.families import SEED
-from rheoclast.populations.campaign.identity import canonical, digest
+from rheoclast.campaigns.conditions import Conditions, ContactMaterial, Orientations
+from rheoclast.campaigns.events import EVENTS
+from rheoclast.campaigns.families import SEED
+from rheoclast.campaigns.identity import canonical, digest
+from rheoclast.campaigns.passages import orbits
+from rheoclast.campaigns.setting import Flows, Orbits, Setting
 from rheoclast.populations.orientations import random_orientations
 
 IDENTITY = pa.schema(
@@ -34,6 +35,7 @@ IDENTITY = pa.schema(
         "replicate": pa.int64(),
         "seed": pa.int64(),
         "orientation_seed": pa.int64(),
+        "history_seed": pa.int64(),
         "material": pa.string(),
         "rheoclast": pa.string(),
         "numpy": pa.string(),
@@ -70,6 +72,8 @@ class Task(Struct, frozen=True, kw_only=True):
         That it grows from; None if its family knows only one.
     orientation_seed
         Of `random_orientations`.
+    history_seed
+        Of its histories; None where it meets none.
     conditions
         What it meets.
     """
@@ -79,6 +83,7 @@ class Task(Struct, frozen=True, kw_only=True):
     replicate: int
     seed: int | None
     orientation_seed: int
+    history_seed: int | None = None
     conditions: Conditions
 
     @property
@@ -101,12 +106,12 @@ def perform(task: Task) -> pa.Table:
     with _one_thread(), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # what a campaign may be warned of, it is when it is read
         try:
-            aggregate = task.grown()
-            conditions = task.conditions
+            aggregate, conditions = task.grown(), task.conditions
             response = rigid_response(aggregate.spheres, conditions.hydrodynamics.chosen(), conditions.viscosity)
+            met = _met(task, response)
         except Exception as error:  # whatever is wrong with one aggregate must not stop the others
             return failed(task, _reason(error))
-        return pa.concat_tables([_material_table(task, material, aggregate, response) for material in materials])
+        return pa.concat_tables([_material_table(task, material, aggregate, response, met) for material in materials])
 
 
 def failed(task: Task, reason: str) -> pa.Table:
@@ -122,7 +127,9 @@ def result_schema(event: str) -> pa.Schema:
     return pa.schema([*IDENTITY, *AGGREGATE, listed])
 
 
-def _material_table(task: Task, material: ContactMaterial, aggregate: Aggregate, response: RigidResponse) -> pa.Table:
+def _material_table(
+    task: Task, material: ContactMaterial, aggregate: Aggregate, response: RigidResponse, met: Flows | Orbits
+) -> pa.Table:
     known = {
         "spheres": len(aggregate),
         "contacts": len(aggregate.pairs),
@@ -133,20 +140,23 @@ def _material_table(task: Task, material: ContactMaterial, aggregate: Aggregate,
     try:
         bonds = material.law().bonds(aggregate)
         criterion = task.conditions.failure_criterion(material)
-        setting = _setting(task, aggregate, response, bonds, criterion)
-        events = EVENTS[task.conditions.event].rows(setting)
+        setting = Setting(aggregate, response, bonds, criterion, cast(Rule, task.conditions.rule))
+        events = EVENTS[task.conditions.event].rows(setting, met)
     except Exception as error:  # as above
         return _table(task, material, {**known, "failure": _reason(error)})
     return _table(task, material, known, events)
 
 
-def _setting(task: Task, aggregate: Aggregate, response: RigidResponse, bonds: Any, criterion: Criterion) -> Setting:
-    asked, orientations = task.conditions, task.conditions.orientations
+def _met(task: Task, response: RigidResponse) -> Flows | Orbits:
+    """What the aggregate meets, the same for all materials."""
+    asked = task.conditions
+    if asked.histories is not None:
+        assert task.history_seed is not None
+        return orbits(response, asked.histories, asked.viscosity, task.history_seed, task.orientation_seed)
     rotations = None
-    if isinstance(orientations, Orientations):
-        rotations = random_orientations(orientations.number, task.orientation_seed)
-    up_to = np.inf if asked.up_to is None else asked.up_to
-    return Setting(aggregate, response, bonds, asked.linear_flows, rotations, criterion, cast(Rule, asked.rule), up_to)
+    if isinstance(asked.orientations, Orientations):
+        rotations = random_orientations(asked.orientations.number, task.orientation_seed)
+    return Flows(asked.linear_flows, rotations, np.inf if asked.up_to is None else asked.up_to)
 
 
 def _table(
@@ -161,6 +171,7 @@ def _table(
         "replicate": task.replicate,
         "seed": task.seed,
         "orientation_seed": task.orientation_seed,
+        "history_seed": task.history_seed,
         "material": material.name,
         **_versions(),
         **known,

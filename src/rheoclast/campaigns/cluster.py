@@ -9,7 +9,7 @@ from importlib import import_module
 from itertools import islice
 from typing import Any, TypeVar
 
-from rheoclast.populations.campaign.worker import WorkerLost
+from rheoclast.campaigns.worker import WorkerLost
 
 T = TypeVar("T")
 R = TypeVar("R")

@@ -5,7 +5,7 @@ import pytest
 
 pytest.importorskip("msgspec")
 
-from rheoclast.populations.campaign.identity import DIGITS, canonical, derived_seed, digest
+from rheoclast.campaigns.identity import DIGITS, canonical, derived_seed, digest
 
 SOMETHING = {"family": "ring", "count": 12, "place": [1.5, None]}
 

@@ -17,10 +17,11 @@ import numpy as np
 from msgspec import Meta, Struct
 
 from rheoclast.hydrodynamics.response import DIMENSIONLESS_VISCOSITY
-from rheoclast.populations.campaign.conditions import COUNTING, NATURAL, Conditions
-from rheoclast.populations.campaign.families import combinations, is_random
-from rheoclast.populations.campaign.identity import derived_seed
-from rheoclast.populations.campaign.task import Task
+from rheoclast.campaigns.choices import COUNTING, NATURAL
+from rheoclast.campaigns.conditions import Conditions
+from rheoclast.campaigns.families import combinations, is_random
+from rheoclast.campaigns.identity import derived_seed
+from rheoclast.campaigns.task import Task
 from rheoclast.scales import warn_of_radii, warn_of_viscosity
 
 _PLACE = re.compile(r" - at `\$\.?([^`]*)`$")
@@ -64,6 +65,7 @@ class Campaign(Conditions, frozen=True, forbid_unknown_fields=True, kw_only=True
     def __post_init__(self) -> None:
         Conditions.__post_init__(self)
         list(self._kinds())
+        self._refuse_unreadable_histories()
 
     def tasks(self) -> tuple[Task, ...]:
         """Its units of work, each once, in the order of the file."""
@@ -81,6 +83,7 @@ class Campaign(Conditions, frozen=True, forbid_unknown_fields=True, kw_only=True
                     replicate=replicate,
                     seed=derived_seed(self.seed, "aggregate", *identity) if is_random(family) else None,
                     orientation_seed=derived_seed(self.seed, "orientations", *identity),
+                    history_seed=None if self.histories is None else derived_seed(self.seed, "histories", *identity),
                     conditions=conditions,
                 )
 
@@ -90,6 +93,13 @@ class Campaign(Conditions, frozen=True, forbid_unknown_fields=True, kw_only=True
                 yield from combinations(asked, self.sizes, self.radius)
             except ValueError as error:
                 raise ValueError(f"families[{position}]: {plain(error)}") from None
+
+    def _refuse_unreadable_histories(self) -> None:
+        if self.histories is not None:
+            try:
+                self.histories.refuse_unreadable()
+            except ValueError as error:
+                raise ValueError(f"histories: {error}") from None
 
 
 def read_campaign(path: str | os.PathLike[str]) -> Campaign:

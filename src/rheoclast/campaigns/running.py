@@ -13,11 +13,11 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from rheoclast import _checks
-from rheoclast.populations.campaign import cluster, local_pool
-from rheoclast.populations.campaign.request import Campaign
-from rheoclast.populations.campaign.store import Store
-from rheoclast.populations.campaign.task import Task, failed, perform
-from rheoclast.populations.campaign.worker import WorkerLost
+from rheoclast.campaigns import cluster, local_pool
+from rheoclast.campaigns.request import Campaign
+from rheoclast.campaigns.store import Store
+from rheoclast.campaigns.task import Task, failed, perform
+from rheoclast.campaigns.worker import WorkerLost
 
 Progress = Callable[[int, int], None]
 

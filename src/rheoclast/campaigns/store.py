@@ -17,10 +17,10 @@ import pyarrow as pa
 import pyarrow.compute as pc
 import pyarrow.parquet as pq
 
-from rheoclast.populations.campaign.events import EVENTS
-from rheoclast.populations.campaign.identity import canonical
-from rheoclast.populations.campaign.request import Campaign
-from rheoclast.populations.campaign.task import AGGREGATE, EVENT_LIST, IDENTITY, Task
+from rheoclast.campaigns.events import EVENTS
+from rheoclast.campaigns.identity import canonical
+from rheoclast.campaigns.request import Campaign
+from rheoclast.campaigns.task import AGGREGATE, EVENT_LIST, IDENTITY, Task
 
 ROWS_TOGETHER = 500_000
 """Rows that are gathered before they are written, in one row group."""
@@ -45,7 +45,7 @@ class Store:
 
     @property
     def events(self) -> Path:
-        """One row per material, flow and orientation of every aggregate."""
+        """One row per material, and flow and orientation or history and dissipation, of every aggregate."""
         return self.folder / "events.parquet"
 
     @property

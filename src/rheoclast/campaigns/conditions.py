@@ -1,9 +1,7 @@
-"""What all aggregates of a campaign meet: liquid, flows, orientations, materials, and what is asked of them."""
+"""What all aggregates of a campaign meet: liquid, flows or histories, materials, and what is asked of them."""
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable
 from typing import Annotated, Literal, get_args
 
 from msgspec import Meta, Struct
@@ -20,12 +18,11 @@ from rheoclast.mechanics.laws.law import ContactLaw
 from rheoclast.mechanics.laws.measured_pull_off import MeasuredPullOff
 from rheoclast.mechanics.laws.uniform import Uniform
 from rheoclast.mechanics.material import MATERIALS, Material
-from rheoclast.populations.campaign.choices import CRITERIA, FLOWS, MODELS, one_of
-from rheoclast.populations.campaign.events import EVENTS
+from rheoclast.campaigns.choices import COUNTING, CRITERIA, FLOWS, MODELS, one_of, refuse_repeated
+from rheoclast.campaigns.events import EVENTS
+from rheoclast.campaigns.histories import Histories
 
 Row = tuple[float, float, float]
-NATURAL = Annotated[int, Meta(ge=0)]
-COUNTING = Annotated[int, Meta(ge=1)]
 
 
 class Orientations(Struct, frozen=True, forbid_unknown_fields=True):
@@ -111,7 +108,7 @@ class Conditions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     ----------
     event
         "first failure": the contact that fails first in every flow and orientation. "breakup": all failures up to the
-        split, and the fragments.
+        split, and the fragments. "history": the contact that fails first along every history, and the fragments.
     viscosity
         Of the liquid, Pa s.
     radius
@@ -119,15 +116,17 @@ class Conditions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     hydrodynamics
         The model.
     flows
-        Names of flows, or gradients.
+        Names of flows, or gradients; not for "history".
     orientations
-        "worst" for tension in every flow, or a number of random ones.
+        "worst" for tension in every flow, or a number of random ones; not for "history".
+    histories
+        For "history" only.
     materials
         Of the contacts: names of known materials, or their properties.
     criterion
         When a contact fails.
     rule
-        For "breakup": contacts fail one at a time, "weakest", or all that are "overloaded" at once.
+        For fragments: contacts fail one at a time, "weakest", or all that are "overloaded" at once.
     up_to
         For "breakup": rate of the flow, 1/s, above which it is not raised.
     """
@@ -136,8 +135,9 @@ class Conditions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     viscosity: float
     radius: float
     hydrodynamics: Hydrodynamics = Hydrodynamics()
-    flows: Annotated[tuple[str | NamedGradient, ...], Meta(min_length=1)]
-    orientations: str | Orientations
+    flows: Annotated[tuple[str | NamedGradient, ...], Meta(min_length=1)] | None = None
+    orientations: str | Orientations | None = None
+    histories: Histories | None = None
     materials: Annotated[tuple[str | ContactMaterial, ...], Meta(min_length=1)]
     criterion: str = "every-limit"
     rule: str = "weakest"
@@ -149,18 +149,19 @@ class Conditions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
         if self.up_to is not None:
             _checks.positive("up_to", self.up_to)
         one_of("event", EVENTS, self.event)
+        self._refuse_what_others_meet()
         one_of("rule", get_args(Rule), self.rule)
         one_of("criterion", CRITERIA, self.criterion)
         if isinstance(self.orientations, str) and self.orientations != "worst":
             raise ValueError(f"orientations: expected 'worst' or {{ number = … }}, got {self.orientations!r}")
-        _refuse_repeated("flows", (self._flow(each)[0] for each in self.flows))
-        _refuse_repeated("materials", (each.name for each in self.contact_materials))
+        refuse_repeated("flows", (self._flow(each)[0] for each in self.flows or ()))
+        refuse_repeated("materials", (each.name for each in self.contact_materials))
         self._refuse_unbreakable()
 
     @property
     def linear_flows(self) -> dict[str, LinearFlow]:
         """The flows by their names; those known by name at a rate of 1/s."""
-        return dict(self._flow(each) for each in self.flows)
+        return dict(self._flow(each) for each in self.flows or ())
 
     @property
     def contact_materials(self) -> tuple[ContactMaterial, ...]:
@@ -177,6 +178,16 @@ class Conditions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
         one_of("flows", FLOWS, given)
         return given, FLOWS[given](1.0)
 
+    def _refuse_what_others_meet(self) -> None:
+        """Refuse a campaign that does not say what its event needs, or says what only other events need."""
+        needed = EVENTS[self.event].needs
+        for key in needed:
+            if getattr(self, key) is None:
+                raise ValueError(f"{key}: expected with event {self.event!r}, got none; add it")
+        for key in {key: None for event in EVENTS.values() for key in event.needs if key not in needed}:
+            if getattr(self, key) is not None:
+                raise ValueError(f"{key}: event {self.event!r} takes {' and '.join(needed)} instead; remove {key}")
+
     def _refuse_unbreakable(self) -> None:
         """Refuse a criterion that no contact of some material can meet, by the example of two spheres."""
         pair = straight_chain(2, self.radius)
@@ -185,9 +196,3 @@ class Conditions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
                 refuse_without_strength(material.law().bonds(pair), self.failure_criterion(material))
             except ValueError as error:
                 raise ValueError(f"criterion: {self.criterion!r} never fails {material.name!r}: {error}") from None
-
-
-def _refuse_repeated(key: str, names: Iterable[str]) -> None:
-    name, number = Counter(names).most_common(1)[0]
-    if number > 1:
-        raise ValueError(f"{key}: expected different names, got {name!r} {number} times; rename or remove one")

@@ -8,7 +8,9 @@ import rheoclast as rc
 pytest.importorskip("msgspec")
 pytest.importorskip("pyarrow")
 
-from rheoclast.populations.campaign.events import EVENTS, Setting, first_failures
+from rheoclast.campaigns.events import EVENTS
+from rheoclast.campaigns.first_failures import first_failures
+from rheoclast.campaigns.setting import Flows, Setting
 
 FLOC = rc.generation.thinned_fcc_ball(30, 4, seed=3)
 RESPONSE = rc.rigid_response(FLOC.spheres, rc.FreeDraining(), 1.0)
@@ -16,6 +18,7 @@ BONDS = rc.Bonds(1.0, 0.8, 0.3, 0.2, tensile_strength=2.0, shear_strength=1.5, b
 FLOWS = {"shear": rc.simple_shear(3.0), "extension": rc.uniaxial_extension(1.0)}
 ROTATIONS = rc.random_orientations(40, seed=2)
 CRITERION = rc.Tension() | rc.Twisting() | rc.Rolling() | rc.Sliding(0.3)
+SETTING = Setting(FLOC, RESPONSE, BONDS, CRITERION, "weakest")
 
 
 @pytest.fixture(scope="module")
@@ -23,15 +26,10 @@ def table():
     return rc.contact_response(FLOC, RESPONSE, BONDS)
 
 
-def setting(**changed):
-    given = {"rotations": ROTATIONS, "criterion": CRITERION, "rule": "weakest", "up_to": np.inf}
-    return Setting(FLOC, RESPONSE, BONDS, FLOWS, **{**given, **changed})
-
-
 @pytest.mark.parametrize("criterion", [CRITERION, rc.Tension(), rc.Combined(), rc.EVERY_LIMIT])
 @pytest.mark.parametrize("flow", FLOWS.values())
 def test_all_orientations_at_once_are_each_in_turn(table, flow, criterion, monkeypatch):
-    monkeypatch.setattr("rheoclast.populations.campaign.events.CHUNK", 200)
+    monkeypatch.setattr("rheoclast.campaigns.first_failures.CHUNK", 200)
     found = first_failures(table, BONDS, flow, ROTATIONS, criterion)
     for k, rotation in enumerate(ROTATIONS):
         single = rc.initiation(table, BONDS, flow.rotated(rotation), criterion)
@@ -61,7 +59,7 @@ def test_nothing_fails_where_all_is_compressed():
     np.testing.assert_array_equal(np.isfinite(found.rate), pulled)
     np.testing.assert_array_equal(found.margin[pulled], 1)
     rows = EVENTS["first failure"].rows(
-        Setting(pair, response, BONDS, {"a": flow}, turn, rc.Tension(), "weakest", np.inf)
+        Setting(pair, response, BONDS, rc.Tension(), "weakest"), Flows({"a": flow}, turn, np.inf)
     )
     for unknown in ("contact", "i", "j", "criterion", "margin", "radial_position", "depth"):
         np.testing.assert_array_equal(rows.field(unknown).is_null(), ~pulled)
@@ -73,7 +71,7 @@ def test_without_a_strength_nothing_can_fail(table):
 
 
 def test_rows_of_first_failures(table):
-    rows = EVENTS["first failure"].rows(setting()).to_pylist()
+    rows = EVENTS["first failure"].rows(SETTING, Flows(FLOWS, ROTATIONS, np.inf)).to_pylist()
     assert [(row["flow"], row["orientation"]) for row in rows] == [(name, k) for name in FLOWS for k in range(40)]
     for row in rows[::7]:
         single = rc.initiation(table, BONDS, FLOWS[row["flow"]].rotated(ROTATIONS[row["orientation"]]), CRITERION)
@@ -85,36 +83,3 @@ def test_rows_of_first_failures(table):
             np.linalg.norm(point - FLOC.spheres.center_of_mass) / rc.radius_of_gyration(FLOC.spheres)
         )
         assert row["depth"] == pytest.approx(rc.depth(FLOC, point)[0])
-
-
-@pytest.mark.parametrize("rule", ["weakest", "overloaded"])
-def test_rows_of_breakups(rule):
-    rows = EVENTS["breakup"].rows(setting(rotations=ROTATIONS[:4], rule=rule)).to_pylist()
-    assert [(row["flow"], row["orientation"]) for row in rows] == [(name, k) for name in FLOWS for k in range(4)]
-    for row in rows:
-        flow = FLOWS[row["flow"]].rotated(ROTATIONS[row["orientation"]])
-        broken = rc.break_up(FLOC, RESPONSE, BONDS, flow, rule, CRITERION)
-        assert row["outcome"] == broken.outcome
-        assert row["fragments"] == [len(each) for each in broken.fragments]
-        assert row["contacts"] == [each.contact for each in broken.failures]
-        assert row["criteria"] == [each.criterion for each in broken.failures]
-        assert row["rates_per_s"] == [each.rate for each in broken.failures]
-        assert (row["initiation_rate_per_s"], row["breakup_rate_per_s"]) == (
-            broken.initiation_rate,
-            broken.breakup_rate,
-        )
-        assert row["surface"] == len(broken.surface)
-        assert row["inwardness"] == pytest.approx(broken.inwardness, nan_ok=True)
-
-
-def test_breakup_only_up_to_a_rate():
-    rows = EVENTS["breakup"].rows(setting(up_to=1e-3)).to_pylist()
-    assert {(row["outcome"], len(row["contacts"]), tuple(row["fragments"])) for row in rows} == {("whole", 0, (30,))}
-
-
-@pytest.mark.parametrize("event", EVENTS)
-def test_worst_orientation_is_that_for_tension(table, event):
-    rows = EVENTS[event].rows(setting(rotations=None, criterion=rc.Tension())).to_pylist()
-    worst = [rc.worst_initiation(table, BONDS, flow).rate for flow in FLOWS.values()]
-    assert [row["initiation_rate_per_s"] for row in rows] == pytest.approx(worst, rel=1e-9)
-    assert [row["orientation"] for row in rows] == [0, 0]

@@ -11,8 +11,8 @@ import pytest
 pytest.importorskip("msgspec")
 pytest.importorskip("pyarrow")
 
-from rheoclast.populations.campaign.local_pool import performed
-from rheoclast.populations.campaign.worker import WorkerLost
+from rheoclast.campaigns.local_pool import performed
+from rheoclast.campaigns.worker import WorkerLost
 
 
 def test_a_deadly_item_is_given_up_and_the_others_are_done():
@@ -39,7 +39,7 @@ def test_processes_end_when_results_are_no_longer_wanted():
 
 
 def test_processes_that_cannot_start(monkeypatch):
-    monkeypatch.setattr("rheoclast.populations.campaign.local_pool._begin", partial(os._exit, 1))
+    monkeypatch.setattr("rheoclast.campaigns.local_pool._begin", partial(os._exit, 1))
     with pytest.raises(OSError, match=r"processes end as soon as they start; .* __name__"):
         next(performed(operator.call, [partial(abs, -1)], workers=1))
 

@@ -13,7 +13,7 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from typing import TypeVar
 
-from rheoclast.populations.campaign.worker import WorkerLost
+from rheoclast.campaigns.worker import WorkerLost
 
 T = TypeVar("T")
 R = TypeVar("R")

@@ -2,6 +2,7 @@
 
 import pytest
 
+import rheoclast as rc
 from rheoclast.cli import main
 
 pytest.importorskip("msgspec")
@@ -9,9 +10,9 @@ pytest.importorskip("pyarrow")
 
 import pyarrow.parquet as pq
 
-from rheoclast.populations.campaign import read_campaign, survey
-from rheoclast.populations.campaign.task import failed, perform
-from rheoclast.populations.campaign.worker import WorkerLost
+from rheoclast.campaigns import read_campaign, survey
+from rheoclast.campaigns.task import failed, perform
+from rheoclast.campaigns.worker import WorkerLost
 
 REQUEST = """
 event = "breakup"
@@ -23,6 +24,23 @@ orientations = "worst"
 materials = ["polystyrene"]
 hydrodynamics = { model = "free-draining" }
 families = [{ name = "thinned-fcc-ball", coordination = [4, 11] }]
+"""
+
+IN_TURBULENCE = """
+event = "history"
+viscosity = 1e-3
+radius = 1e-6
+sizes = [12, 13]
+materials = [{ name = "weak", stiffness = [1, 1, 1, 1], pull_off = 2e-10 }]
+hydrodynamics = { model = "free-draining" }
+families = [{ name = "cluster-cluster" }, { name = "straight-chain" }]
+
+[histories]
+model = "gaussian"
+number = 4
+duration = 5
+dissipations = [1e-3, 3, 1e9]
+density = 1e3
 """
 
 
@@ -40,7 +58,7 @@ def in_turn(function, items, **_):
 
 @pytest.fixture
 def alone(monkeypatch):
-    monkeypatch.setattr("rheoclast.populations.campaign.local_pool.performed", in_turn)
+    monkeypatch.setattr("rheoclast.campaigns.local_pool.performed", in_turn)
 
 
 @pytest.mark.usefixtures("alone")
@@ -55,7 +73,7 @@ def test_only_what_is_missing_is_done_and_failures_only_when_asked_for(file, tmp
         worked.append(task.parameters["coordination"])
         return perform(task)
 
-    monkeypatch.setattr("rheoclast.populations.campaign.running.perform", remembered)
+    monkeypatch.setattr("rheoclast.campaigns.running.perform", remembered)
     told.clear()
     survey(campaign, tmp_path / "out", progress=lambda *numbers: told.append(numbers))
     assert worked == []
@@ -83,18 +101,63 @@ def test_summary_counts_and_names_failures_rates_and_files(file, tmp_path, capsy
     assert f"{min(rate):.3g}" in shown
 
 
+@pytest.mark.usefixtures("alone")
+def test_summary_of_histories_has_the_breakage_rate_of_every_family_and_dissipation(file, tmp_path, capsys):
+    file.write_text(IN_TURBULENCE, encoding="utf-8")
+    with pytest.raises(SystemExit):
+        main(["survey", str(file)])
+    shown = capsys.readouterr().out
+    assert "4 aggregates, 1 material, 48 events" in shown
+    rows = pq.read_table(tmp_path / "campaign" / "events.parquet").to_pylist()
+    lines = iter([line[1:-1].split("│") for line in shown.splitlines() if line.startswith("│")])
+    for family in ("cluster-cluster", "straight-chain"):
+        assert f"{family}, weak: breakage rate by dissipation" in shown
+        for dissipation in (1e-3, 3.0, 1e9):
+            own = [row for row in rows if (row["family"], row["dissipation_m2_per_s3"]) == (family, dissipation)]
+            lasting = [row for row in own if not row["overloaded"]]
+            shown_row = [each.strip() for each in next(lines)]
+            assert shown_row[:2] == [f"{dissipation:.3g}", str(len(own) - len(lasting))]
+            if not lasting:
+                assert shown_row[2:] == ["0", "", ""]
+                continue
+            rate = rc.breakage_rate(rc.WaitingTimes(*([row[name] for row in lasting] for name in ("time_s", "failed"))))
+            interval = " to ".join(f"{bound:.3g}" for bound in rate.interval)
+            assert shown_row[2:] == [str(rate.failures), f"{rate.rate:.3g}", interval]
+    assert next(lines, None) is None
+
+
+@pytest.mark.usefixtures("alone")
+def test_histories_interrupted_and_taken_up_again_are_the_same(file, tmp_path, monkeypatch):
+    file.write_text(IN_TURBULENCE, encoding="utf-8")
+    campaign = read_campaign(file)
+    whole = survey(campaign, tmp_path / "whole")
+
+    def interrupted(task):
+        if task == campaign.tasks()[2]:
+            raise KeyboardInterrupt
+        return perform(task)
+
+    monkeypatch.setattr("rheoclast.campaigns.running.perform", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        survey(campaign, tmp_path / "parts")
+    monkeypatch.setattr("rheoclast.campaigns.running.perform", perform)
+    parts = survey(read_campaign(file), tmp_path / "parts")
+    assert parts.events.read_bytes() == whole.events.read_bytes()
+    assert parts.aggregates.read_bytes() == whole.aggregates.read_bytes()
+
+
 def test_lost_workers_are_failures(file, tmp_path, monkeypatch):
     def lost(function, items, **_):
         return ((item, WorkerLost("gone")) for item in items)
 
-    monkeypatch.setattr("rheoclast.populations.campaign.local_pool.performed", lost)
+    monkeypatch.setattr("rheoclast.campaigns.local_pool.performed", lost)
     results = survey(read_campaign(file), tmp_path / "out")
     assert results.table("aggregates", ["failure"])["failure"].to_pylist() == ["gone"] * 4
 
 
 @pytest.mark.usefixtures("alone")
 def test_all_failed_is_still_a_summary(file, capsys, monkeypatch):
-    monkeypatch.setattr("rheoclast.populations.campaign.running.perform", lambda task: failed(task, "no luck"))
+    monkeypatch.setattr("rheoclast.campaigns.running.perform", lambda task: failed(task, "no luck"))
     with pytest.raises(SystemExit):
         main(["survey", str(file)])
     shown = capsys.readouterr().out

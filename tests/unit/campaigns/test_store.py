@@ -9,10 +9,10 @@ pytest.importorskip("pyarrow")
 import msgspec
 import pyarrow.parquet as pq
 
-from rheoclast.populations.campaign.conditions import Hydrodynamics, Orientations
-from rheoclast.populations.campaign.request import Campaign, Seeds
-from rheoclast.populations.campaign.store import Store
-from rheoclast.populations.campaign.task import failed, perform
+from rheoclast.campaigns.conditions import Hydrodynamics, Orientations
+from rheoclast.campaigns.request import Campaign, Seeds
+from rheoclast.campaigns.store import Store
+from rheoclast.campaigns.task import failed, perform
 
 CAMPAIGN = Campaign(
     viscosity=1e-3,
@@ -64,7 +64,7 @@ def test_a_task_is_there_when_it_is_whole(store, monkeypatch):
 @pytest.mark.parametrize("together", [1, 10, 1000])
 def test_merged_in_the_order_of_the_campaign(store, monkeypatch, together):
     """However the tasks came, and however many rows are written together."""
-    monkeypatch.setattr("rheoclast.populations.campaign.store.ROWS_TOGETHER", together)
+    monkeypatch.setattr("rheoclast.campaigns.store.ROWS_TOGETHER", together)
     for task in reversed(TASKS):
         store.keep(task, failed(task, "no luck") if task is TASKS[1] else perform(task))
     assert store.failed(TASKS) == [TASKS[1]]

@@ -9,7 +9,7 @@ import rheoclast as rc
 pytest.importorskip("msgspec")
 pytest.importorskip("pyarrow")
 
-from rheoclast.populations.campaign import read_campaign
+from rheoclast.campaigns import read_campaign
 
 BASE = {
     "viscosity": "1e-3",
@@ -96,6 +96,112 @@ def test_equal_requests_are_equal_however_they_are_written(tmp_path):
     assert campaign(tmp_path, event='"breakup"') != campaign(tmp_path)
 
 
+HISTORIES = {
+    "event": '"history"',
+    "flows": None,
+    "orientations": None,
+    "histories": '{ model = "gaussian", number = 2, duration = 5, dissipations = [0.1], density = 1e3 }',
+}
+
+
+def test_seeds_of_histories_follow_from_what_an_aggregate_is(tmp_path):
+    few = campaign(tmp_path, **HISTORIES, sizes="[20]").tasks()
+    many = campaign(tmp_path, **HISTORIES, seeds="{ number = 3 }").tasks()
+    other = campaign(tmp_path, **HISTORIES, sizes="[20]", seed="1").tasks()
+    assert few[0].history_seed in {task.history_seed for task in many}
+    assert few[0].history_seed not in {few[0].seed, few[0].orientation_seed, other[0].history_seed}
+    assert len({task.history_seed for task in many}) == 6
+    assert campaign(tmp_path).tasks()[0].history_seed is None
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"flows": '["shear"]'}, "flows: event 'history' takes histories instead; remove flows"),
+        ({"orientations": '"worst"'}, "orientations: event 'history' takes histories instead; remove orientations"),
+        ({"histories": None}, "histories: expected with event 'history', got none; add it"),
+        ({"event": '"breakup"'}, "flows: expected with event 'breakup', got none; add it"),
+        (
+            {"event": '"breakup"', "flows": '["shear"]'},
+            "orientations: expected with event 'breakup', got none; add it",
+        ),
+        (
+            {"event": '"breakup"', "flows": '["shear"]', "orientations": '"worst"'},
+            "histories: event 'breakup' takes flows and orientations instead; remove histories",
+        ),
+    ],
+)
+def test_histories_and_flows_exclude_each_other(tmp_path, changed, message):
+    with pytest.raises(ValueError, match=rf"campaign\.toml: {message}"):
+        campaign(tmp_path, **{**HISTORIES, **changed})
+
+
+@pytest.mark.parametrize(
+    ("table", "message"),
+    [
+        ("{ density = 1e3 }", "histories: model, files: expected one of them"),
+        ('{ model = "gaussian", files = ["a.csv"], density = 1e3 }', "histories: model, files: expected one of them"),
+        ('{ model = "gaussian" }', "histories: density, kinematic_viscosity: expected one of them"),
+        (
+            '{ model = "gaussian", density = 1e3, kinematic_viscosity = 1e-6 }',
+            "histories: density, kinematic_viscosity: expected one of them",
+        ),
+        (
+            '{ model = "chaos", density = 1e3 }',
+            "histories: model: expected one of gaussian, recent-deformation, got 'chaos'",
+        ),
+        ('{ model = "gaussian", density = 1e3 }', "histories: number: expected with a model of turbulence"),
+        ('{ model = "gaussian", density = 1e3, number = 0 }', r"histories\.number: expected int >= 1"),
+        ('{ model = "gaussian", density = 1e3, number = 1 }', "histories: duration: expected with a model"),
+        ('{ model = "gaussian", density = 1e3, duration = 0 }', "histories: duration: expected a positive number"),
+        (
+            '{ model = "gaussian", density = 1e3, number = 1, duration = 5 }',
+            "histories: dissipations: expected with a model of turbulence, got none; add it",
+        ),
+        (
+            '{ model = "gaussian", density = 1e3, dissipations = [1, 0] }',
+            r"histories: dissipations\[1\]: expected a positive number, got 0",
+        ),
+        (
+            '{ model = "gaussian", density = 1e3, dissipations = [1, 1.0] }',
+            r"histories: dissipations: expected different ones, got 1\.0 2 times",
+        ),
+        ('{ model = "gaussian", density = 1e3, dissipations = [] }', "histories.dissipations: expected list of length"),
+        ('{ model = "gaussian", density = -1 }', "histories: density: expected a positive number, got -1"),
+        ("{ files = [], density = 1e3 }", "histories.files: expected list of length >= 1"),
+        (
+            '{ files = ["nothing.csv"], density = 1e3 }',
+            r"histories: files\[0\]: path: nothing\.csv cannot be read \(No such file .*; check the current folder",
+        ),
+        (
+            '{ files = [{ path = "a.csv", row = 3 }], density = 1e3 }',
+            r"histories\.files\[0\]: unknown key row",
+        ),
+    ],
+)
+def test_refusals_of_histories(tmp_path, table, message):
+    with pytest.raises(ValueError, match=rf"campaign\.toml: {message}"):
+        campaign(tmp_path, **{**HISTORIES, "histories": table})
+
+
+def test_files_are_read_with_the_campaign(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    rc.write_histories("paths.csv", rc.gaussian_histories(3, 0.01, 1.0, 1e-6, seed=1))
+    table = '{{ files = ["paths.csv"], density = 1e3, {} }}'
+    first = campaign(tmp_path, **{**HISTORIES, "histories": table.format("number = 3")})
+    with pytest.raises(ValueError, match=r"histories: number: expected at most 3, the histories in the files, got 4"):
+        campaign(tmp_path, **{**HISTORIES, "histories": table.format("number = 4")})
+    with pytest.raises(ValueError, match=r"histories: duration: expected at most .* Kolmogorov times, .* got 1000"):
+        campaign(tmp_path, **{**HISTORIES, "histories": table.format("duration = 1000")})
+    rc.write_histories("paths.csv", rc.gaussian_histories(3, 0.01, 1.0, 1e-6, seed=2), overwrite=True)
+    changed = campaign(tmp_path, **{**HISTORIES, "histories": table.format("number = 3")})
+    assert first.tasks()[0].digest != changed.tasks()[0].digest
+    assert first.tasks()[0].history_seed == changed.tasks()[0].history_seed
+    (tmp_path / "paths.csv").write_text("1, 2\n", encoding="utf-8")
+    with pytest.raises(ValueError, match=r"campaign\.toml: histories: paths\.csv"):
+        campaign(tmp_path, **{**HISTORIES, "histories": table.format("number = 3")})
+
+
 @pytest.mark.parametrize(
     ("changed", "message"),
     [
@@ -110,7 +216,7 @@ def test_equal_requests_are_equal_however_they_are_written(tmp_path):
             r"families\[0\]: sizes: cluster-cluster needs numbers of spheres; give sizes, or the family its own count",
         ),
         ({"colour": "1"}, "unknown key colour"),
-        ({"event": '"lunch"'}, "event: expected one of first failure, breakup, got 'lunch'"),
+        ({"event": '"lunch"'}, "event: expected one of first failure, breakup, history, got 'lunch'"),
         ({"rule": '"strongest"'}, "rule: expected one of weakest, overloaded, got 'strongest'"),
         ({"criterion": '"taste"'}, "criterion: expected one of every-limit, .*, got 'taste'"),
         ({"criterion": '"sliding"'}, "criterion: 'sliding' never fails 'polystyrene': .*shear_strength"),
@@ -118,7 +224,7 @@ def test_equal_requests_are_equal_however_they_are_written(tmp_path):
         ({"orientations": "{ number = 0 }"}, "orientations.number: expected int >= 1"),
         ({"flows": "[]"}, "flows: expected list of length >= 1"),
         ({"flows": '["twirl"]'}, "flows: expected one of shear, uniaxial, biaxial, planar, got 'twirl'"),
-        ({"flows": '["shear", "shear"]'}, "flows: expected different names, got 'shear' 2 times"),
+        ({"flows": '["shear", "shear"]'}, "flows: expected different ones, got 'shear' 2 times"),
         ({"flows": '[{ name = "a" }]'}, r"flows\[0\]: missing key gradient"),
         ({"flows": '[{ name = "a", gradient = [[1, 0, 0], [0, 0, 0], [0, 0, 0]] }]'}, r"flows\[0\]: gradient: .*trace"),
         ({"flows": '[{ name = "a", gradient = [[0, 1, 0], [-1, 0, 0], [0, 0, 0]] }]'}, r"flows\[0\]: .* a rotation"),
@@ -158,5 +264,11 @@ def test_missing_file(tmp_path):
 
 
 def test_the_example_is_understood():
-    example = read_campaign(Path(__file__).parents[4] / "examples" / "campaign.toml")
+    example = read_campaign(Path(__file__).parents[3] / "examples" / "campaign.toml")
     assert len(example.tasks()) == 2 * (2 + 2) * 5
+
+
+def test_the_example_in_turbulence_is_understood():
+    example = read_campaign(Path(__file__).parents[3] / "examples" / "campaign_in_turbulence.toml")
+    assert len(example.tasks()) == 2 * 2 * 5
+    assert list(example.histories.kolmogorov_times(1e-3).values()) == pytest.approx([10**-2.5, 3e5**-0.5, 1e-3])

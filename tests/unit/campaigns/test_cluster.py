@@ -9,8 +9,8 @@ import pytest
 pytest.importorskip("msgspec")
 pytest.importorskip("pyarrow")
 
-from rheoclast.populations.campaign import cluster
-from rheoclast.populations.campaign.worker import WorkerLost
+from rheoclast.campaigns import cluster
+from rheoclast.campaigns.worker import WorkerLost
 
 
 class Killed(Exception):  # noqa: N818 - in place of one that is so called

@@ -15,8 +15,8 @@ pytest.importorskip("pyarrow")
 
 import msgspec
 
-from rheoclast.populations.campaign.conditions import Conditions, ContactMaterial, Hydrodynamics, Orientations
-from rheoclast.populations.campaign.task import Task, perform, result_schema
+from rheoclast.campaigns.conditions import Conditions, ContactMaterial, Hydrodynamics, Orientations
+from rheoclast.campaigns.task import Task, perform, result_schema
 
 MATERIALS = ("polystyrene", ContactMaterial("weak", 3.4e9, 0.33, 0.02, pull_off=1e-12, friction=0.5))
 CONDITIONS = Conditions(
@@ -48,6 +48,7 @@ def test_rows_say_where_they_come_from_and_what_the_aggregate_is():
     for row, material in zip(results.to_pylist(), ("polystyrene", "weak"), strict=True):
         assert (row["task"], row["family"], row["material"]) == (TASK.digest, "thinned-fcc-ball", material)
         assert (row["seed"], row["replicate"], row["orientation_seed"]) == (77, 2, 5)
+        assert row["history_seed"] is None
         assert json.loads(row["parameters"]) == TASK.parameters
         assert {name: row[name] for name in ("rheoclast", "numpy", "scipy")} == {
             name: version(name) for name in ("rheoclast", "numpy", "scipy")
@@ -109,6 +110,7 @@ def test_hash_knows_every_input():
     others = [
         {"seed": 78},
         {"orientation_seed": 6},
+        {"history_seed": 6},
         {"parameters": {"count": 21}},
         *({"conditions": c} for c in conditions),
     ]

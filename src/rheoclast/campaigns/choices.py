@@ -1,10 +1,13 @@
-"""What a campaign may name: flows, hydrodynamic models and criteria of failure."""
+"""What a campaign may name or number: flows, hydrodynamic models and criteria of failure, and the usual refusals."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections import Counter
+from collections.abc import Callable, Collection, Iterable, Mapping
 from types import MappingProxyType
-from typing import Literal
+from typing import Annotated, Any, Literal
+
+from msgspec import Meta
 
 from rheoclast.flows import LinearFlow, biaxial_extension, planar_extension, simple_shear, uniaxial_extension
 from rheoclast.hydrodynamics.exposed_area import ExposedArea
@@ -17,6 +20,9 @@ from rheoclast.mechanics.criteria.rolling import Rolling
 from rheoclast.mechanics.criteria.sliding import Sliding
 from rheoclast.mechanics.criteria.tension import Tension
 from rheoclast.mechanics.criteria.twisting import Twisting
+
+NATURAL = Annotated[int, Meta(ge=0)]
+COUNTING = Annotated[int, Meta(ge=1)]
 
 FLOWS: Mapping[str, Callable[[float], LinearFlow]] = MappingProxyType(
     {
@@ -60,3 +66,16 @@ def one_of(key: str, choices: Collection[str], name: str) -> None:
     """
     if name not in choices:
         raise ValueError(f"{key}: expected one of {', '.join(choices)}, got {name!r}")
+
+
+def refuse_repeated(key: str, values: Iterable[Any]) -> None:
+    """Refuse a value that stands for a key more than once.
+
+    Raises
+    ------
+    ValueError
+        With the key and the value.
+    """
+    for value, number in Counter(values).most_common(1):
+        if number > 1:
+            raise ValueError(f"{key}: expected different ones, got {value!r} {number} times; rename or remove one")

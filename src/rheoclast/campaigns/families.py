@@ -11,7 +11,7 @@ from typing import Any, get_origin
 import msgspec
 
 from rheoclast.generation.families import FAMILIES
-from rheoclast.populations.campaign.choices import one_of
+from rheoclast.campaigns.choices import one_of
 
 SIZE, RADIUS, SEED = "count", "radius", "seed"
 
