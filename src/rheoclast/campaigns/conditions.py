@@ -8,6 +8,9 @@ from msgspec import Meta, Struct
 
 from rheoclast import _checks
 from rheoclast.breakup.crack import Rule
+from rheoclast.campaigns.choices import COUNTING, CRITERIA, FLOWS, MODELS, one_of, refuse_repeated
+from rheoclast.campaigns.events import EVENTS
+from rheoclast.campaigns.histories import Histories
 from rheoclast.flows import LinearFlow
 from rheoclast.generation.chains import straight_chain
 from rheoclast.hydrodynamics.model import HydrodynamicModel
@@ -18,9 +21,6 @@ from rheoclast.mechanics.laws.law import ContactLaw
 from rheoclast.mechanics.laws.measured_pull_off import MeasuredPullOff
 from rheoclast.mechanics.laws.uniform import Uniform
 from rheoclast.mechanics.material import MATERIALS, Material
-from rheoclast.campaigns.choices import COUNTING, CRITERIA, FLOWS, MODELS, one_of, refuse_repeated
-from rheoclast.campaigns.events import EVENTS
-from rheoclast.campaigns.histories import Histories
 
 Row = tuple[float, float, float]
 

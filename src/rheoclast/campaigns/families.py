@@ -10,8 +10,8 @@ from typing import Any, get_origin
 
 import msgspec
 
-from rheoclast.generation.families import FAMILIES
 from rheoclast.campaigns.choices import one_of
+from rheoclast.generation.families import FAMILIES
 
 SIZE, RADIUS, SEED = "count", "radius", "seed"
 

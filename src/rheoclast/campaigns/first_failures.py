@@ -14,13 +14,13 @@ import pyarrow as pa
 
 from rheoclast._checks import FloatArray, IntArray
 from rheoclast.breakup.contact_response import ContactResponse
+from rheoclast.campaigns.setting import Flows, Setting
 from rheoclast.flows import LinearFlow
 from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.contact_loads import ContactLoads
 from rheoclast.mechanics.criteria.any_of import AnyOf
 from rheoclast.mechanics.criteria.criterion import Criterion
 from rheoclast.mechanics.criteria.load_ratios import EVERY_LIMIT, load_ratios, refuse_without_strength
-from rheoclast.campaigns.setting import Flows, Setting
 from rheoclast.vectors import strain_components
 
 CHUNK = 100_000

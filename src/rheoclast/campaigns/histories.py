@@ -17,10 +17,10 @@ import numpy as np
 from msgspec import Meta, Struct
 
 from rheoclast import _checks
+from rheoclast.campaigns.choices import COUNTING, one_of, refuse_repeated
 from rheoclast.flows import TRACE_TOLERANCE
 from rheoclast.histories import GradientHistory
 from rheoclast.io.histories import read_histories
-from rheoclast.campaigns.choices import COUNTING, one_of, refuse_repeated
 from rheoclast.turbulence import TURBULENCE_MODELS, kolmogorov_time
 
 FILES_KEPT = 64

@@ -15,11 +15,11 @@ import pyarrow as pa
 from rheoclast.breakup.crack import break_up_each
 from rheoclast.breakup.event import Breakup
 from rheoclast.breakup.load_history import FirstFailure, load_history
+from rheoclast.campaigns.histories import Histories
+from rheoclast.campaigns.setting import Orbits, Setting
 from rheoclast.flows import LinearFlow
 from rheoclast.hydrodynamics.response import RigidResponse
 from rheoclast.hydrodynamics.trajectory import trajectory
-from rheoclast.campaigns.histories import Histories
-from rheoclast.campaigns.setting import Orbits, Setting
 from rheoclast.populations.orientations import random_orientations
 
 HISTORY = pa.struct(

@@ -16,12 +16,12 @@ import msgspec
 import numpy as np
 from msgspec import Meta, Struct
 
-from rheoclast.hydrodynamics.response import DIMENSIONLESS_VISCOSITY
 from rheoclast.campaigns.choices import COUNTING, NATURAL
 from rheoclast.campaigns.conditions import Conditions
 from rheoclast.campaigns.families import combinations, is_random
 from rheoclast.campaigns.identity import derived_seed
 from rheoclast.campaigns.task import Task
+from rheoclast.hydrodynamics.response import DIMENSIONLESS_VISCOSITY
 from rheoclast.scales import warn_of_radii, warn_of_viscosity
 
 _PLACE = re.compile(r" - at `\$\.?([^`]*)`$")

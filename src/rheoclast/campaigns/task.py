@@ -15,16 +15,16 @@ from msgspec import Struct
 
 from rheoclast._threads import one_blas_thread
 from rheoclast.breakup.crack import Rule
-from rheoclast.generation.families import FAMILIES
-from rheoclast.hydrodynamics.response import RigidResponse, rigid_response
-from rheoclast.particles.aggregate import Aggregate
-from rheoclast.particles.morphology import mean_coordination, radius_of_gyration
 from rheoclast.campaigns.conditions import Conditions, ContactMaterial, Orientations
 from rheoclast.campaigns.events import EVENTS
 from rheoclast.campaigns.families import SEED
 from rheoclast.campaigns.identity import canonical, digest
 from rheoclast.campaigns.passages import orbits
 from rheoclast.campaigns.setting import Flows, Orbits, Setting
+from rheoclast.generation.families import FAMILIES
+from rheoclast.hydrodynamics.response import RigidResponse, rigid_response
+from rheoclast.particles.aggregate import Aggregate
+from rheoclast.particles.morphology import mean_coordination, radius_of_gyration
 from rheoclast.populations.orientations import random_orientations
 
 IDENTITY = pa.schema(
