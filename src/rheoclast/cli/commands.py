@@ -19,6 +19,7 @@ from rheoclast.cli.breaking import break_command
 from rheoclast.cli.console import INTERRUPTED, plain_speech, progress_bar, screen, tell_memory
 from rheoclast.cli.generation import generate
 from rheoclast.cli.presentation import show_shape, show_stress
+from rheoclast.cli.reporting import report_command
 from rheoclast.cli.survey import survey_command
 from rheoclast.cli.tables import shape_summary, stress_summary
 from rheoclast.cli.units import Units
@@ -181,6 +182,7 @@ def info(
 
 app.command("break")(break_command)
 app.command("survey")(survey_command)
+app.command("report")(report_command)
 app.add_typer(generate, name="generate")
 
 

@@ -144,7 +144,7 @@ def stress_summary(analysis: Analysis, units: Units) -> dict[str, Any]:
         },
         "largest": {
             "tension": float(loads.tension.max()) / units.force,
-            "compression": float(-loads.tension.min()) / units.force,
+            "compression": max(0.0, float(-loads.tension.min())) / units.force,
             "shear": float(loads.shear.max()) / units.force,
             "bending": float(loads.bending.max()) / units.moment,
             "twisting": float(np.abs(loads.twisting).max()) / units.moment,

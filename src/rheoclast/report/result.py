@@ -1,0 +1,165 @@
+"""What `rheoclast stress` or `rheoclast break` left in a folder, read back."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rheoclast.errors import FileFormatError
+from rheoclast.flows import LinearFlow
+from rheoclast.io.csv_table import named_rows
+from rheoclast.io.files import TextFile, load
+
+Table = Mapping[str, NDArray[Any]]
+SI_UNITS = {"length": "m", "force": "N", "moment": "N m", "rate": "1/s"}
+NEEDED = ("summary.json", "contacts.csv", "spheres.csv")
+CONTACT_COLUMNS = ("i", "j", "point_x", "point_y", "point_z", "tension", "shear", "bending", "twisting", "load_ratio")
+SPHERE_COLUMNS = ("x", "y", "z", "radius")
+FAILURE_COLUMNS = ("failure", "contact", "i", "j", "rate", "reached", "criterion", "overload", "radial_position")
+FRAGMENT_COLUMNS = ("fragment", "spheres", "contacts", "radius_of_gyration")
+STRESS_KEYS = ("aggregate", "model", "flow", "largest", "most_tensioned", "given_orientation", "worst_orientation")
+BREAK_KEYS = (
+    *("spheres", "contacts", "mean_coordination", "radius_of_gyration_m", "model", "order", "viscosity_Pa_s"),
+    *("orientation", "flow_gradient_per_s", "flow_rate_per_s", "contact_loads_at_rate_per_s", "rule", "criterion"),
+    *("outcome", "initiation_rate_per_s", "initiation_rate_error", "breakup_rate_per_s", "failures", "surface"),
+    *("inwardness", "near_ties", "fragments"),
+)
+_UNIT_TAG = re.compile(r"_(?:m|N|Nm|per_s)(?=_[xyz]$|$)")
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """One aggregate in one flow, as its files tell. Made by `read_result`.
+
+    Attributes
+    ----------
+    folder
+        Where the files are.
+    summary
+        The content of summary.json.
+    contacts, spheres, failures, fragments
+        Columns by name, without the unit at its end: "tension", not "tension_N"; the last two are empty unless the
+        aggregate was broken.
+    """
+
+    folder: Path
+    summary: Mapping[str, Any]
+    contacts: Table
+    spheres: Table
+    failures: Table
+    fragments: Table
+
+    @property
+    def is_breakup(self) -> bool:
+        """Whether the aggregate was broken, or only its loads computed."""
+        return "outcome" in self.summary
+
+    @property
+    def name(self) -> str:
+        """Name of the file that the aggregate came from."""
+        return str(self.summary.get("file", self.folder.name))
+
+    @property
+    def units(self) -> Mapping[str, str]:
+        """Names of the units of length, force, moment and rate."""
+        return self.summary.get("units", SI_UNITS)
+
+    @property
+    def flow(self) -> LinearFlow:
+        """The flow in which the aggregate was."""
+        if self.is_breakup:
+            return LinearFlow(self.summary["flow_gradient_per_s"], self.summary["flow_rate_per_s"])
+        return LinearFlow(self.summary["flow"]["gradient_per_s"], self.summary["flow"]["rate_per_s"])
+
+
+def read_result(folder: str | os.PathLike[str]) -> Result:
+    """What a command left in a folder.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such folder, or no results in it.
+    FileFormatError
+        If one of the files is not as it was written.
+    """
+    path = Path(folder)
+    if not path.is_dir():
+        what = "a file" if path.exists() else "nothing of that name"
+        raise FileNotFoundError(f"{path}: expected a folder with the results of stress or break, got {what}")
+    missing = [name for name in NEEDED if not (path / name).is_file()]
+    if missing:
+        raise FileNotFoundError(
+            f"{path}: expected the results of stress or break, got a folder without {', '.join(missing)}; "
+            f"write them with rheoclast stress FILE --output {path}"
+        )
+    summary = _summary(path / "summary.json")
+    spheres = _table(path / "spheres.csv", SPHERE_COLUMNS)
+    contacts = _table(path / "contacts.csv", CONTACT_COLUMNS)
+    _refuse_wrong_pairs(path / "contacts.csv", contacts, len(spheres["x"]))
+    broken = "outcome" in summary
+    failures = _table(path / "failures.csv", FAILURE_COLUMNS) if broken and summary["initiation_rate_per_s"] else {}
+    fragments = _table(path / "fragments.csv", FRAGMENT_COLUMNS) if broken else {}
+    return Result(path, summary, contacts, spheres, failures, fragments)
+
+
+def _summary(path: Path) -> Mapping[str, Any]:
+    file = load(path)
+    try:
+        summary = json.loads("\n".join(file.lines))
+    except ValueError as error:
+        raise file.error(f"expected JSON ({error}); write it anew") from None
+    if not isinstance(summary, dict):
+        raise file.error(f"expected an object with the names of results, got {type(summary).__name__}")
+    wanted = BREAK_KEYS if "outcome" in summary else STRESS_KEYS
+    missing = [key for key in wanted if key not in summary]
+    if missing:
+        raise file.error(f"expected the summary of stress or break, got one without {missing[0]}; write it anew")
+    return summary
+
+
+def _table(path: Path, wanted: tuple[str, ...]) -> Table:
+    """Columns of numbers, and of words where not all cells are numbers."""
+    file = load(path)
+    rows = list(named_rows(file))
+    names = [_UNIT_TAG.sub("", name) for name in rows[0][1]] if rows else []
+    missing = [name for name in wanted if name not in names]
+    if missing:
+        raise file.error(f"expected a column {missing[0]}, got {', '.join(names)!r:.80}; write the file anew")
+    for line, cells in rows[1:]:
+        if len(cells) != len(names):
+            raise file.error(f"expected {len(names)} cells, got {len(cells)}; write the file anew", line)
+    if len(rows) == 1:
+        return {name: np.empty(0) for name in names}
+    columns = zip(*(cells for _, cells in rows[1:]), strict=True)
+    return {name: _column(file, name, cells) for name, cells in zip(names, columns, strict=True)}
+
+
+def _column(file: TextFile, name: str, cells: tuple[str, ...]) -> NDArray[Any]:
+    try:
+        values = np.array(cells, dtype=np.float64)
+    except ValueError:
+        if name == "criterion":
+            return np.array(cells)
+        raise file.error(f"expected numbers in the column {name}, got words; write the file anew") from None
+    if not np.isfinite(values).all():
+        raise file.error(
+            f"expected finite numbers in the column {name}, got {cells[int(np.isfinite(values).argmin())]}"
+        )
+    return values
+
+
+def _refuse_wrong_pairs(path: Path, contacts: Table, spheres: int) -> None:
+    pairs = np.stack([contacts["i"], contacts["j"]])
+    if ((pairs < 0) | (pairs >= spheres)).any():
+        raise FileFormatError(
+            f"{path}: expected spheres below {spheres}, the number in spheres.csv, got {pairs.max():g}; "
+            "write both files anew"
+        )

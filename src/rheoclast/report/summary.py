@@ -1,0 +1,214 @@
+"""What stands in words and numbers on the page: a sentence, key figures, and groups of properties."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from rheoclast._checks import FloatArray
+from rheoclast.report.result import Result
+from rheoclast.report.wording import flow_name, percent, written
+from rheoclast.view.fragments import counted
+
+MOST_SIZES = 8
+RULES = {"weakest": "the weakest contact fails first", "overloaded": "all overloaded contacts fail at once"}
+MODELS = {"StokesianDynamics": "Stokesian dynamics", "FreeDraining": "free draining", "ExposedArea": "exposed area"}
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One number that matters most, and what is to be known with it."""
+
+    label: str
+    value: str
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Group:
+    """Properties under one heading, each a label and a value."""
+
+    heading: str
+    rows: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True)
+class Summary:
+    """All of the page that is text."""
+
+    lead: str
+    figures: tuple[Figure, ...]
+    groups: tuple[Group, ...]
+
+
+def summary(result: Result) -> Summary:
+    """The text of the page on a result."""
+    return _breakup(result) if result.is_breakup else _stress(result)
+
+
+def _stress(result: Result) -> Summary:
+    told, units = result.summary, result.units
+    shape, largest = told["aggregate"], told["largest"]
+    lead = (
+        f"{_size(shape['spheres'], shape['contacts'])} in {_at_rate(result)}: "
+        "the load on every contact, and the contact that fails first as the flow is made faster."
+    )
+    loads = tuple((f"Largest {load}", _largest(load, value, units)) for load, value in largest.items())
+    groups = (
+        Group("Aggregate", _shape(shape, units)),
+        Group("Flow", _liquid(result)),
+        Group("Loads", loads),
+    )
+    return Summary(lead, _stress_figures(result), groups)
+
+
+def _stress_figures(result: Result) -> tuple[Figure, ...]:
+    told, units = result.summary, result.units
+    most = told["most_tensioned"]
+    pair = "–".join(str(sphere) for sphere in most["pair"])
+    place = f"contact {most['contact']}, spheres {pair}"
+    ratio = float(result.contacts["load_ratio"].max())
+    return (
+        _critical("Critical rate, as it lies", told["given_orientation"], units["rate"]),
+        _critical("Critical rate, worst orientation", told["worst_orientation"], units["rate"]),
+        Figure("Largest tension", written(told["largest"]["tension"], units["force"]), place),
+        Figure("Largest load over strength", written(ratio, digits=3), "fails at 1"),
+    )
+
+
+def _at_rate(result: Result) -> str:
+    name, rate = flow_name(result.flow), result.flow.rate
+    return f"{name} of rate {written(rate, '1/s')}" if rate else name
+
+
+def _liquid(result: Result) -> tuple[tuple[str, str], ...]:
+    model = result.summary["model"]
+    return (
+        ("Flow", _at_rate(result)),
+        ("Velocity gradient", f"{_matrix(result.flow.gradient)} 1/s"),
+        ("Viscosity", written(model["viscosity_Pa_s"], "Pa s")),
+        ("Hydrodynamics", _model(model["name"], model["order"])),
+    )
+
+
+def _largest(load: str, value: float, units: Mapping[str, str]) -> str:
+    """A load in words; a compression that is not positive is none."""
+    if load == "compression" and value <= 0:
+        return "none"
+    return written(value, units["moment" if load in ("bending", "twisting") else "force"])
+
+
+def _critical(label: str, failure: Mapping[str, Any], unit: str) -> Figure:
+    if failure["contact"] is None:
+        return Figure(label, "none", "no contact is pulled apart")
+    note = f"contact {failure['contact']}, by {failure['criterion']}"
+    error = failure["critical_rate_error"]
+    return Figure(label, written(failure["critical_rate"], unit), note if error is None else f"{_error(error)}; {note}")
+
+
+def _error(share: float) -> str:
+    return f"± {percent(share)} from the multipole order"
+
+
+def _shape(shape: Mapping[str, Any], units: Mapping[str, str]) -> tuple[tuple[str, str], ...]:
+    lengths = ("mean_radius", "radius_of_gyration", "enclosing_radius", "hydrodynamic_radius")
+    rows = [
+        ("Spheres", str(shape["spheres"])),
+        ("Contacts", f"{shape['contacts']}, {written(shape['mean_coordination'], digits=3)} per sphere on average"),
+        ("Structure", f"{shape['structure']}, hyperstaticity {shape['hyperstaticity']}"),
+        *((key.replace("_", " ").capitalize(), written(shape[key], units["length"])) for key in lengths),
+    ]
+    if shape["fractal_dimension"] is not None:
+        low, high = shape["fractal_dimension"]["interval"]
+        rows.append(("Fractal dimension", f"{shape['fractal_dimension']['value']:.2f} ({low:.2f} to {high:.2f})"))
+    rows.append(("Porosity", written(shape["porosity"], digits=3)))
+    return tuple(rows)
+
+
+def _breakup(result: Result) -> Summary:
+    told = result.summary
+    kind = flow_name(result.flow)
+    lead = f"{_size(told['spheres'], told['contacts'])} in {kind}, which is made faster from rest: {_outcome(told)}."
+    flow = (
+        ("Flow", kind),
+        ("Orientation", told["orientation"]),
+        ("Velocity gradient, over its rate", _matrix(result.flow.gradient / result.flow.rate)),
+        ("Viscosity", written(told["viscosity_Pa_s"], "Pa s")),
+        ("Hydrodynamics", _model(told["model"], told["order"])),
+    )
+    aggregate = (
+        ("Spheres", str(told["spheres"])),
+        ("Contacts", f"{told['contacts']}, {written(told['mean_coordination'], digits=3)} per sphere on average"),
+        ("Radius of gyration", written(told["radius_of_gyration_m"], "m")),
+    )
+    groups = (Group("Aggregate", aggregate), Group("Flow", flow), Group("Breakup", _course(told)))
+    return Summary(lead, _breakup_figures(told), groups)
+
+
+def _breakup_figures(told: Mapping[str, Any]) -> tuple[Figure, ...]:
+    error, ties = told["initiation_rate_error"], told["near_ties"]
+    first, last = told["initiation_rate_per_s"], told["breakup_rate_per_s"]
+    sizes = told["fragments"]
+    return (
+        Figure("Initiation rate", _rate(first), "" if error is None else _error(error)),
+        Figure(
+            "Breakup rate", _rate(last), "stays whole" if last is None else f"{written(last / first)} × initiation rate"
+        ),
+        Figure("Failed contacts", str(told["failures"]), f"{ties} of them near ties" if ties else ""),
+        Figure("Fragments", str(len(sizes)), _sizes(sizes)),
+    )
+
+
+def _rate(rate: float | None) -> str:
+    return "none" if rate is None else written(rate, "1/s")
+
+
+def _outcome(told: Mapping[str, Any]) -> str:
+    match told["outcome"]:
+        case "bond":
+            return "it breaks at a single bond"
+        case "crack":
+            return f"it breaks by a crack of {told['failures']} failures"
+    if told["failures"]:
+        return f"{counted(told['failures'], 'contact')} fail, and it stays whole"
+    return "it stays whole"
+
+
+def _course(told: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
+    rows = [
+        ("Rule", RULES[told["rule"]]),
+        ("A contact fails by", told["criterion"]),
+        ("Fracture surface", f"{told['surface']} of {told['failures']} failed contacts"),
+    ]
+    if told["inwardness"] is not None:
+        rows.append(("Inwardness", f"{written(told['inwardness'], digits=2)} (1: from the outside in, 0: no order)"))
+    if told["near_ties"] is not None:
+        rows.append(
+            ("Near ties", f"{told['near_ties']} failures whose place is within the error of the multipole order")
+        )
+    if "cascade" in told:
+        rate, sizes = written(told["cascade"]["rate_per_s"], "1/s"), told["cascade"]["sizes"]
+        rows.append((f"Hold at {rate}", f"{counted(len(sizes), 'piece')}: {_sizes(sizes)}"))
+    return tuple(rows)
+
+
+def _size(spheres: int, contacts: int) -> str:
+    return f"{counted(spheres, 'sphere')} with {counted(contacts, 'contact')}"
+
+
+def _sizes(sizes: Sequence[int]) -> str:
+    """Numbers of spheres, equal ones counted."""
+    counts = Counter(sizes)
+    shown = [f"{counts[size]} × {size}" if counts[size] > 1 else str(size) for size in sorted(counts, reverse=True)]
+    return ", ".join(shown[:MOST_SIZES]) + (", …" if len(shown) > MOST_SIZES else "") + " spheres"
+
+
+def _model(name: str, order: int | None) -> str:
+    return MODELS.get(name, name) + (f", multipole order {order}" if order else "")
+
+
+def _matrix(matrix: FloatArray) -> str:
+    """Nine numbers in brackets, row by row."""
+    return "[" + "; ".join(", ".join(written(value, digits=3) for value in row) for row in matrix) + "]"

@@ -1,0 +1,77 @@
+"""The text of the page says what the results say."""
+
+import json
+
+import pytest
+
+import rheoclast as rc
+from rheoclast.report.result import read_result
+from rheoclast.report.summary import summary
+
+
+def figures(folder):
+    return {figure.label: figure for figure in summary(read_result(folder)).figures}
+
+
+def test_stress(stressed):
+    told = json.loads((stressed / "summary.json").read_text())
+    text = summary(read_result(stressed))
+    assert text.lead.startswith("6 spheres with 5 contacts in simple shear of rate 1 × 10⁴ 1/s")
+    given = figures(stressed)["Critical rate, as it lies"]
+    assert given.value.endswith("1/s")
+    assert f"contact {told['given_orientation']['contact']}, by tension" in given.note
+    assert f"± {100 * told['given_orientation']['critical_rate_error']:.2g} % from the multipole order" in given.note
+    rows = {label: value for group in text.groups for label, value in group.rows}
+    assert rows["Velocity gradient"] == "[0, 1 × 10⁴, 0; 0, 0, 0; 0, 0, 0] 1/s"
+    assert rows["Largest compression"] == "none"
+    assert rows["Hydrodynamics"] == "Stokesian dynamics, multipole order 2"
+
+
+def test_breakup(broken):
+    told = json.loads((broken / "summary.json").read_text())
+    text = summary(read_result(broken))
+    assert f"it breaks by a crack of {told['failures']} failures" in text.lead
+    found = figures(broken)
+    assert found["Failed contacts"].value == str(told["failures"])
+    assert found["Fragments"].value == str(len(told["fragments"]))
+    ratio = told["breakup_rate_per_s"] / told["initiation_rate_per_s"]
+    assert found["Breakup rate"].note == f"{ratio:.4g} × initiation rate"
+    assert f"± {100 * told['initiation_rate_error']:.2g} %" in found["Initiation rate"].note
+    rows = {label: value for group in text.groups for label, value in group.rows}
+    assert rows["Velocity gradient, over its rate"] == "[−0.5, 0, 0; 0, −0.5, 0; 0, 0, 1]"
+
+
+def test_nothing_is_pulled_apart(results):
+    doublet = "0 0 0 1\n2 0 0 1\n"
+    held = results("break", doublet, "--unit", "um", "--flow", "uniaxial")
+    assert "it stays whole" in summary(read_result(held)).lead
+    assert figures(held)["Breakup rate"].value == "none"
+    loaded = results("stress", doublet, "--unit", "um", "--flow", "uniaxial")
+    assert figures(loaded)["Critical rate, as it lies"].note == "no contact is pulled apart"
+
+
+def test_liquid_at_rest(results):
+    folder = results("stress", "0 0 0 1\n2 0 0 1\n", "--unit", "um", "--rate", 0)
+    assert summary(read_result(folder)).lead.startswith("2 spheres with 1 contact in liquid at rest: the load")
+
+
+def test_model_without_order(results):
+    folder = results("stress", "0 0 0 1\n2 0 0 1\n", "--unit", "um", "--model", "free-draining")
+    rows = {label: value for group in summary(read_result(folder)).groups for label, value in group.rows}
+    assert rows["Hydrodynamics"] == "free draining"
+    assert "±" not in figures(folder)["Critical rate, as it lies"].note
+
+
+def test_cascade(results):
+    cluster = rc.generation.compacted_cluster(30, radius=0.5e-6, amount=0.4, seed=1)
+    folder = results("break", cluster, "--rate", 1e9, "--cascade")
+    told = json.loads((folder / "summary.json").read_text())
+    rows = {label: value for group in summary(read_result(folder)).groups for label, value in group.rows}
+    assert rows["Hold at 1 × 10⁹ 1/s"].startswith(f"{len(told['cascade']['sizes'])} pieces: ")
+
+
+@pytest.mark.parametrize("name", ["stressed", "broken"])
+def test_every_row_says_something(name, request):
+    text = summary(read_result(request.getfixturevalue(name)))
+    assert all(label and value for group in text.groups for label, value in group.rows)
+    assert all(figure.label and figure.value for figure in text.figures)
