@@ -9,6 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from rheoclast import _checks
 from rheoclast._checks import FloatArray, IntArray
 from rheoclast.breakup.contact_response import contact_response
 from rheoclast.breakup.crack import Rule, break_up
@@ -22,9 +23,9 @@ from rheoclast.mechanics.criteria.criterion import Criterion
 from rheoclast.mechanics.criteria.load_ratios import EVERY_LIMIT
 from rheoclast.particles.aggregate import Aggregate
 from rheoclast.particles.morphology import mean_coordination, radius_of_gyration, relative_shape_anisotropy
+from rheoclast.stokes.mobility import Progress
 
 Orientation = Literal["given", "worst", "orbit"]
-Progress = Callable[[str, float], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,8 +91,7 @@ class Cascade:
     def table(self) -> dict[str, FloatArray | IntArray]:
         """Columns with one row per piece: who came from whom, size and shape, and what happened.
 
-        Rates are in 1/s and infinite for what holds; `parent` is −1 for the aggregate at the beginning;
-        `radius_of_gyration` is in m.
+        Rates are infinite for what holds; `parent` is −1 for the aggregate at the beginning.
         """
         rows = [_row(number, piece) for number, piece in enumerate(self.pieces)]
         return {name: np.array([row[name] for row in rows]) for name in rows[0]}
@@ -105,13 +105,13 @@ def _row(number: int, piece: Piece) -> dict[str, Any]:
         "generation": piece.generation,
         "spheres": len(spheres),
         "contacts": len(piece.aggregate.pairs),
-        "radius_of_gyration": radius_of_gyration(spheres),
+        "radius_of_gyration_m": radius_of_gyration(spheres),
         "shape_anisotropy": relative_shape_anisotropy(spheres),
         "coordination": mean_coordination(piece.aggregate),
         "holds": int(piece.holds),
         "failures": len(breakup.failures) if breakup else 0,
-        "initiation_rate": breakup.initiation_rate if breakup else np.inf,
-        "breakup_rate": breakup.breakup_rate if breakup else np.inf,
+        "initiation_rate_per_s": breakup.initiation_rate if breakup else np.inf,
+        "breakup_rate_per_s": breakup.breakup_rate if breakup else np.inf,
     }
 
 
@@ -137,8 +137,8 @@ def cascade(
         At the rate that the aggregate meets; contacts that would fail at higher rates hold.
     orientation
         "given": every fragment keeps the orientation that it had. "worst": every piece meets the flow in its worst
-        orientation for tension, as if there were time to find it. "orbit": each turns freely from the orientation
-        that it had, and meets the flow in the worst orientation along its orbit.
+        orientation for tension, as if there were time to find it. "orbit": each turns freely, from the orientation of
+        the beginning on, and meets the flow in the worst orientation along its orbit.
     rule, criterion
         As in `break_up`.
     progress
@@ -149,6 +149,7 @@ def cascade(
     ValueError
         If the orientation is not known, or as `break_up`.
     """
+    _checks.instance("response", response, RigidResponse, "for instance rigid_response(aggregate.spheres, ...)")
     if orientation not in ORIENTED:
         raise ValueError(f"orientation: expected one of {', '.join(map(repr, ORIENTED))}, got {orientation!r}")
     pieces: list[Piece] = []

@@ -56,8 +56,12 @@ class ContactResponse:
 
     def loads(self, flow: LinearFlow) -> ContactLoads:
         """Contact loads in a flow."""
-        components = strain_components(flow.strain_rate)
-        return ContactLoads(self.normals, self.force @ components, self.moment @ components)
+        return self.loads_of(strain_components(flow.strain_rate))
+
+    def loads_of(self, components: FloatArray) -> ContactLoads:
+        """Contact loads (..., C) for strain rates with components (..., 5) on `STRAIN_BASIS`, in 1/s."""
+        force, moment = (np.tensordot(components, part, axes=(-1, 2)) for part in (self.force, self.moment))
+        return ContactLoads(self.normals, force, moment)
 
     def worst_tension(self, flow: LinearFlow) -> FloatArray:
         """Largest tension (C,) in N of every contact over all orientations of the aggregate in the flow.

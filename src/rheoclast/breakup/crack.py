@@ -31,7 +31,7 @@ from rheoclast.particles.morphology import depth, radial_position
 
 Rule = Literal["weakest", "overloaded"]
 ROUNDING = 1e-9  # of load ratios: what balance is held to
-NEGLIGIBLE = 1e-8  # of the largest load ratio, compression included; balance is held to a tenth of it
+NEGLIGIBLE = 1e-8  # of the largest load ratio that the contacts left had at first, compression included
 ORDERS_COMPARED = 3
 
 
@@ -74,6 +74,10 @@ def break_up(
         aggregate because the stiffnesses differ by too many decades, or as `contact_loads`.
     GeometryError
         If the response belongs to other spheres.
+    TypeError
+        If an argument is something else.
+    ArithmeticError
+        If the aggregate becomes so slender (thousands of spheres in line) that balance is not reached.
     """
     return next(break_up_each(aggregate, response, bonds, [flow], rule, criterion, up_to))
 
@@ -131,9 +135,9 @@ def _event(setting: _Setting, response: RigidResponse, flow: LinearFlow) -> Brea
     state = setting.intact.loaded(_loads_by_order(response, flow))
     failures: list[Failure] = []
     ratios = setting.ratios(state)
-    reached, nothing = 0.0, NEGLIGIBLE * float(np.abs(ratios[-1]).max())
+    reached, intact = 0.0, np.abs(ratios[-1]).max(axis=1)
     while True:
-        largest = ratios[-1].max(axis=1)
+        largest, nothing = ratios[-1].max(axis=1), NEGLIGIBLE * np.delete(intact, state.lost).max()
         if largest.max() <= nothing or flow.rate / largest.max() > setting.up_to:
             return _breakup(setting.aggregate, failures, np.zeros(len(setting.aggregate), np.intp))
         reached = max(reached, flow.rate / float(largest.max()))

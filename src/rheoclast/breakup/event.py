@@ -101,7 +101,7 @@ class Breakup:
 
     @property
     def splits(self) -> bool:
-        """Whether it breaks at any rate: not if all contacts that are left are compressed."""
+        """Whether it splits, at any rate or up to the largest allowed: not if all contacts left are compressed."""
         return len(self.spheres) > 1
 
     @property
@@ -118,7 +118,7 @@ class Breakup:
 
     @property
     def initiation_rate(self) -> float:
-        """Rate, 1/s, at which the first contact fails; infinite if none does."""
+        """Rate, 1/s, at which the first contact fails; infinite if none does, or none up to the largest allowed."""
         return self.failures[0].rate if self.failures else np.inf
 
     @property

@@ -10,7 +10,8 @@ from rheoclast.breakup.contact_response import ContactResponse
 from rheoclast.flows import LinearFlow
 from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.criteria.criterion import Criterion
-from rheoclast.mechanics.criteria.load_ratios import EVERY_LIMIT, load_ratios
+from rheoclast.mechanics.criteria.load_ratios import EVERY_LIMIT, load_ratios, refuse_without_strength
+from rheoclast.mechanics.criteria.tension import Tension
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,14 +39,28 @@ class Initiation:
 def initiation(
     table: ContactResponse, bonds: Bonds, flow: LinearFlow, criterion: Criterion = EVERY_LIMIT
 ) -> Initiation:
-    """First failure in the given orientation."""
+    """First failure in the given orientation.
+
+    Raises
+    ------
+    ValueError
+        If no contact has a strength for the criterion, or the bonds have another number of contacts.
+    """
+    refuse_without_strength(bonds, criterion)
     ratios = load_ratios(table.loads(flow), bonds, criterion)
     contact, part = np.unravel_index(int(ratios.argmax()), ratios.shape)
     return _first(int(contact), criterion.parts[part].name, float(ratios.max()), flow)
 
 
 def worst_initiation(table: ContactResponse, bonds: Bonds, flow: LinearFlow) -> Initiation:
-    """First failure in tension over all orientations of the aggregate in the flow, in closed form."""
+    """First failure in tension over all orientations of the aggregate in the flow, in closed form.
+
+    Raises
+    ------
+    ValueError
+        If no contact has a tensile strength, or the bonds have another number of contacts.
+    """
+    refuse_without_strength(bonds, Tension())
     ratios = table.worst_tension(flow) / bonds.strength(len(table.normals))[:, 0]
     contact = int(ratios.argmax())
     turned = flow.rotated(table.worst_orientation(flow)[contact]) if ratios[contact] > 0 else flow

@@ -13,10 +13,9 @@ from rheoclast._threads import one_blas_thread
 from rheoclast.breakup.contact_response import ContactResponse
 from rheoclast.hydrodynamics.trajectory import Trajectory
 from rheoclast.mechanics.bonds import Bonds
-from rheoclast.mechanics.contact_loads import ContactLoads
 from rheoclast.mechanics.criteria.any_of import AnyOf
 from rheoclast.mechanics.criteria.criterion import Criterion
-from rheoclast.mechanics.criteria.load_ratios import load_ratios, refuse_without_strength
+from rheoclast.mechanics.criteria.load_ratios import limited_parts, load_ratios, refuse_without_strength
 from rheoclast.mechanics.criteria.tension import Tension
 
 INSTANTS_AT_ONCE = 2**14  # some 10 MB of matrices
@@ -85,18 +84,12 @@ class TrajectoryLoads:
         """Load ratios (T, C, K) by the K parts that count, for strain rates with components (T, 5)."""
         if self._tension is not None:
             return (components @ self._tension)[..., None]
-        return load_ratios(self._loads(components), self.bonds, self._part_that_counts)
-
-    def _loads(self, components: FloatArray) -> ContactLoads:
-        """Loads (T, C) for strain rates with components (T, 5)."""
-        force, moment = (np.tensordot(components, part, axes=(1, 2)) for part in (self.table.force, self.table.moment))
-        return ContactLoads(self.table.normals, force, moment)
+        return load_ratios(self.table.loads_of(components), self.bonds, self._part_that_counts)
 
     @cached_property
     def _counting(self) -> IntArray:
         """Positions of the parts that have a finite strength."""
-        finite = {name for name in self.criterion.strengths if np.isfinite(getattr(self.bonds, name)).any()}
-        return np.flatnonzero([not finite.isdisjoint(part.strengths) for part in self.criterion.parts])
+        return limited_parts(self.bonds, self.criterion)
 
     @cached_property
     def _part_that_counts(self) -> Criterion:
@@ -108,7 +101,7 @@ class TrajectoryLoads:
         counting = self._part_that_counts.parts
         if len(counting) != 1 or not isinstance(counting[0], Tension):
             return None
-        return load_ratios(self._loads(np.eye(5)), self.bonds, counting[0])[..., 0]
+        return load_ratios(self.table.loads_of(np.eye(5)), self.bonds, counting[0])[..., 0]
 
 
 def _largest(ratios: FloatArray) -> tuple[FloatArray, IntArray, IntArray]:

@@ -6,6 +6,7 @@ import numpy as np
 import typer
 
 import rheoclast
+from rheoclast import _checks
 from rheoclast import io as files
 from rheoclast.cli import options, results
 from rheoclast.cli.breakup import FILES, Setting, breakup_summary, write_breakup
@@ -55,6 +56,8 @@ def break_command(
     """
     if output is not None:
         results.prepare(output, overwrite, FILES)
+    if animation and output is None:
+        raise ValueError("--animation: the film is written to a folder; give --output")
     if with_cascade and (rate is None and gradient is None):
         raise ValueError("--cascade: fragments break at the rate of the flow; give --rate or --gradient")
     law = options.chosen_law(
@@ -64,6 +67,9 @@ def break_command(
         friction,
         rolling_distance,
     )
+    chosen_flow = options.chosen_flow(flow, rate, gradient)
+    chosen_criterion = options.chosen_criterion(criterion, friction, rolling_distance)
+    limit = np.inf if up_to is None else _checks.positive("up_to", up_to)
     aggregate = files.read(
         file,
         options.length_unit(unit),
@@ -80,12 +86,12 @@ def break_command(
             aggregate,
             rigid_response(aggregate.spheres, chosen_model, viscosity, progress),
             law.bonds(aggregate),
-            options.chosen_flow(flow, rate, gradient),
+            chosen_flow,
             rule.value,
-            options.CRITERIA[criterion](friction or 0.0),
+            chosen_criterion,
             orientation.value,
         )
-        broken = setting.broken(seed, np.inf if up_to is None else up_to)
+        broken = setting.broken(seed, limit)
         pieces = setting.cascade(broken.flow, progress) if with_cascade else None
     summary = {"rheoclast": rheoclast.__version__, "file": str(file), **breakup_summary(setting, broken, pieces)}
     text = results.json_text(summary)

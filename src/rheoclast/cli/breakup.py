@@ -40,7 +40,8 @@ FILES = (
     "crack.png",
     "crack.gif",
     "report.html",
-    "fragment_*",
+    "fragment_[0-9]*.dat",
+    "fragment_[0-9]*_contacts.csv",
 )
 Orientation = Literal["given", "worst", "orbit", "random"]
 

@@ -22,6 +22,9 @@ from rheoclast.particles.aggregate import Aggregate
 RADIUS = 0.5e-6
 """Default radius in m; that of the families, one metre, suits calculations without units."""
 
+WRITTEN_ONLY = (".vtp",)
+"""Endings of files that hold contacts, but are not read."""
+
 HELP = {
     "count": "Number of spheres.",
     "radius": "Radius of the spheres in m, the median where they are unequal.",
@@ -47,7 +50,7 @@ EXAMPLES = {
     "lattice-block": "fcc 4 4 3",
     "lattice-ball": "hcp 100",
     "cluster-cluster": "300 --fractal-dimension 1.8 --prefactor 1.3 --seed 7",
-    "thinned-fcc-ball": "200 4 --output thinned.vtp",
+    "thinned-fcc-ball": "200 4",
     "compacted-cluster": "200 --amount 0.5",
 }
 
@@ -77,15 +80,16 @@ def _command(name: str, family: Family) -> Callable[..., None]:
         path = Path(f"{name}.dat") if output is None else output
         writable(path, overwrite)  # refused now rather than after the growth
         aggregate = family(**parameters)
-        contacts = path.with_name(f"{path.stem}_contacts.csv") if name.startswith("thinned") else None
-        if contacts is not None:
-            writable(contacts, overwrite)
+        contacts = _contact_file(path, aggregate, overwrite)
         files.write(path, aggregate, format=file_format, overwrite=overwrite)
-        read_with = _keep_contacts(contacts, aggregate, overwrite)
+        if contacts is not None:
+            i, j = aggregate.pairs.T
+            files.write_table(contacts, {"i": i, "j": j}, overwrite)
         show_shape(str(path), shape_summary(aggregate), "m")
-        screen.print(
-            f"next: rheoclast stress {path}{read_with} --rate 1e5 --output results", soft_wrap=True, markup=False
-        )
+        if path.suffix not in WRITTEN_ONLY:
+            read_with = "" if contacts is None else f" --contacts {contacts}"
+            advice = f"next: rheoclast stress {path}{read_with} --rate 1e5 --output results"
+            screen.print(advice, soft_wrap=True, markup=False)
 
     example = f"rheoclast generate {name} {EXAMPLES.get(name, '100')}"
     purpose = (family.__doc__ or "").splitlines()[0].replace("`", "")
@@ -97,13 +101,13 @@ def _command(name: str, family: Family) -> Callable[..., None]:
     return command
 
 
-def _keep_contacts(path: Path | None, aggregate: Aggregate, overwrite: bool) -> str:
-    """Write the contacts of an aggregate in which not all spheres that touch are joined; the option that reads them."""
-    if path is None:
-        return ""
-    i, j = aggregate.pairs.T
-    files.write_table(path, {"i": i, "j": j}, overwrite)
-    return f" --contacts {path}"
+def _contact_file(path: Path, aggregate: Aggregate, overwrite: bool) -> Path | None:
+    """Where the contacts go of an aggregate in which not all spheres that touch are joined; none for others."""
+    if path.suffix in WRITTEN_ONLY or len(Aggregate.touching(aggregate.spheres).pairs) == len(aggregate.pairs):
+        return None
+    contacts = path.with_name(f"{path.stem}_contacts.csv")
+    writable(contacts, overwrite)
+    return contacts
 
 
 def _parameter(given: Parameter) -> Parameter:

@@ -201,7 +201,7 @@ WithCascade = Annotated[
 Animation = Annotated[bool, typer.Option("--animation", help="Write crack.gif too.", rich_help_panel=OUTPUT)]
 Output = Annotated[
     Path | None,
-    typer.Option(help="Folder for tables, VTP, XYZ, picture and summary.", rich_help_panel=OUTPUT, show_default=False),
+    typer.Option(help="Folder for tables, geometry, pictures and summary.", rich_help_panel=OUTPUT, show_default=False),
 ]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace files that exist.", rich_help_panel=OUTPUT)]
 Json = Annotated[
@@ -288,3 +288,12 @@ def chosen_law(
         return Uniform(*stiffness, tensile_strength=pull_off)
     law = JKR(material, friction, rolling_distance)
     return law if pull_off is None else MeasuredPullOff(pull_off, law)
+
+
+def chosen_criterion(name: CriterionChoice, friction: float | None, rolling_distance: float | None) -> Criterion:
+    """The criterion by name, if the contacts are given the limits that it needs."""
+    if name in (CriterionChoice.sliding, CriterionChoice.twisting) and friction is None:
+        raise ValueError(f"--criterion {name}: contacts need a limit; give --friction")
+    if name is CriterionChoice.rolling and rolling_distance is None:
+        raise ValueError(f"--criterion {name}: contacts need a limit; give --rolling-distance")
+    return CRITERIA[name](friction or 0.0)

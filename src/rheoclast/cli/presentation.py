@@ -89,7 +89,7 @@ def _sizes(sizes: Sequence[int]) -> str:
 
 def _failures(breakup: Breakup) -> Table:
     table = Table(title=f"first failures of {len(breakup.failures)}", title_justify="left")
-    for heading in ("", "contact", "spheres", "rate, 1/s", "by", "overload", "distance/Rg", "depth/a"):
+    for heading in ("", "contact", "spheres", "rate, 1/s", "by", "overload", "r/Rg", "depth/a"):
         table.add_column(heading, justify="right", no_wrap=True)
     for k, failure in enumerate(breakup.failures[:MOST_FAILURES]):
         i, j = failure.pair

@@ -11,6 +11,7 @@ from rheoclast import _checks
 from rheoclast._checks import FloatArray, IntArray
 
 SMALLEST_FACTOR = 1e-12
+LEAST_MODULUS = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +80,8 @@ class Bonds:
         modulus (shape): 1 is an exponential distribution, 10 a scatter of 12 %. Equal seeds give equal numbers.
         """
         modulus = _checks.positive("modulus", modulus)
+        if modulus < LEAST_MODULUS:
+            raise ValueError(f"modulus: expected at least {LEAST_MODULUS:g}, got {modulus:g}; 1 is a wide scatter")
         drawn = np.random.default_rng(seed).weibull(modulus, contacts)
         factor = np.maximum(drawn / gamma(1 + 1 / modulus), SMALLEST_FACTOR)
         return Bonds(*self.stiffness(contacts).T, *(factor[:, None] * self.strength(contacts)).T)

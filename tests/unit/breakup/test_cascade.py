@@ -115,9 +115,9 @@ def test_table_has_a_row_per_piece():
     assert table["parent"].tolist() == [-1, 0, 0]
     assert table["spheres"].tolist() == [8, 4, 4]
     assert table["holds"].tolist() == [0, 1, 1]
-    assert table["breakup_rate"][0] == pytest.approx(ALONG_X.rate)
-    assert np.isinf(table["breakup_rate"][1:]).all()
-    assert table["radius_of_gyration"][1] == pytest.approx(np.sqrt(5 + 3 / 5))
+    assert table["breakup_rate_per_s"][0] == pytest.approx(ALONG_X.rate)
+    assert np.isinf(table["breakup_rate_per_s"][1:]).all()
+    assert table["radius_of_gyration_m"][1] == pytest.approx(np.sqrt(5 + 3 / 5))
 
 
 def test_progress_ends_at_one():

@@ -560,3 +560,16 @@ def test_some_contacts_without_a_limit_never_fail():
     strength[2] = np.inf
     strength[0] = 1e30
     assert broken(straight_chain(6), ALONG_X, tensile_strength=strength).failures[0].contact == 0
+
+
+def test_one_very_weak_contact_does_not_hide_the_others():
+    """It fails at once, and the rest breaks as if it had not been there."""
+    aggregate = random_packed_ball(20, seed=1)
+    strength = np.full(len(aggregate.pairs), 2.0)
+    first = broken(aggregate, rc.uniaxial_extension(1.0)).failures[0].contact
+    strength[first] = 2e-10
+    breakup = broken(aggregate, rc.uniaxial_extension(1.0), tensile_strength=strength)
+    assert breakup.failures[0].contact == first
+    assert breakup.splits
+    whole = broken(aggregate, rc.uniaxial_extension(1.0))
+    assert [each.contact for each in breakup.failures] == [each.contact for each in whole.failures]

@@ -153,6 +153,17 @@ def test_compression_only(run, tmp_path):
     assert not (tmp_path / "out" / "failures.csv").exists()
 
 
+def test_files_of_others_stay(run, compact, tmp_path):
+    run("break", compact, "--output", "out")
+    (tmp_path / "out" / "fragment_notes.txt").write_text("mine")
+    assert run("break", compact, "--output", "out", "--overwrite")[0] == 0
+    assert (tmp_path / "out" / "fragment_notes.txt").read_text() == "mine"
+
+
+def test_film_without_a_folder(run, compact):
+    assert "--animation: the film is written to a folder; give --output" in run("break", compact, "--animation")[2]
+
+
 def test_up_to(run, compact):
     report = json.loads(run("break", compact, "--json")[1])
     below = 0.5 * (report["initiation_rate_per_s"] + report["breakup_rate_per_s"])
@@ -167,7 +178,8 @@ def test_up_to(run, compact):
     [
         (["--cascade"], "--cascade: fragments break at the rate of the flow; give --rate or --gradient"),
         (["--gradient", "0 -1 0 1 0 0 0 0 0"], "flow: expected a strain rate that is not zero, got none"),
-        (["--criterion", "rolling"], "expected a strength of some contact for failure by rolling, got none"),
+        (["--criterion", "rolling"], "--criterion rolling: contacts need a limit; give --rolling-distance"),
+        (["--criterion", "twisting"], "--criterion twisting: contacts need a limit; give --friction"),
         (["--stiffness", 1, 1, 1, 1, "--pull-off", 1, "--friction", 1], "explicit stiffness has no law for them"),
         (["--up-to", "-1"], "up_to: expected a positive number, got -1"),
         (["--friction", "-1"], "friction: expected a positive number, got -1"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rheoclast import _checks
-from rheoclast._checks import FloatArray
+from rheoclast._checks import FloatArray, IntArray
 from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.contact_loads import ContactLoads
 from rheoclast.mechanics.criteria.any_of import AnyOf
@@ -35,9 +35,15 @@ def load_ratios(loads: ContactLoads, bonds: Bonds, criterion: Criterion = EVERY_
     return np.stack([part.load_ratio(loads, bonds) for part in criterion.parts], axis=-1)
 
 
+def limited_parts(bonds: Bonds, criterion: Criterion) -> IntArray:
+    """Positions among `Criterion.parts` of those that use a strength that is finite for some contact."""
+    finite = {name for name in criterion.strengths if np.isfinite(getattr(bonds, name)).any()}
+    return np.flatnonzero([not finite.isdisjoint(part.strengths) for part in criterion.parts])
+
+
 def refuse_without_strength(bonds: Bonds, criterion: Criterion) -> None:
     """Refuse bonds that no load can break by a criterion."""
-    if not any(np.isfinite(getattr(bonds, strength)).any() for strength in criterion.strengths):
+    if not len(limited_parts(bonds, criterion)):
         raise ValueError(
             f"bonds: expected a strength of some contact for failure by {criterion.name}, got none; "
             f"give for instance {criterion.strengths[0]}"

@@ -36,6 +36,7 @@ class MeasuredPullOff(ContactLaw):
 
     def __post_init__(self) -> None:
         _checks.positive("force", self.force)
+        _checks.instance("stiffness", self.stiffness, ContactLaw, "for instance JKR(material)")
         if self.radius is not None:
             _checks.positive("radius", self.radius)
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import rheoclast as rc
-from rheoclast.mechanics.criteria.load_ratios import refuse_without_strength
+from rheoclast.mechanics.criteria.load_ratios import limited_parts, refuse_without_strength
 
 from .cases import loads, random_bonds, random_loads
 
@@ -38,6 +38,13 @@ def test_refused_bonds_and_criteria():
     for wrong, name in ((rc.Tension, "the class Tension"), ("tension", "str"), (None, "NoneType")):
         with pytest.raises(TypeError, match=rf"^criterion: expected Criterion, got {name}; for instance Tension\(\)$"):
             rc.load_ratios(random_loads(1), random_bonds(1), wrong)
+
+
+def test_parts_that_have_a_limit():
+    bonds = rc.Bonds(1, 1, 1, 1, shear_strength=[np.inf, 3.0], twisting_strength=2.0)
+    np.testing.assert_array_equal(limited_parts(bonds, rc.EVERY_LIMIT), [1, 3])
+    np.testing.assert_array_equal(limited_parts(bonds, rc.Rolling() | rc.Combined()), [1])
+    assert len(limited_parts(bonds, rc.Tension())) == 0
 
 
 def test_bonds_without_a_strength_that_the_criterion_uses():
