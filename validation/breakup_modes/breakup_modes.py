@@ -14,6 +14,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 from events import FAMILIES, FLOWS, RESULTS, VARIANTS
+from matplotlib.lines import Line2D
 
 import rheoclast as rc
 
@@ -49,6 +50,7 @@ PANELS = {
     "smaller": "spheres outside the largest fragment, share",
 }
 LOGARITHMIC = ("failures", "surface")
+MARKERS = {"open tree": "o", "dense tree": "^", "compacted": "s", "packed ball": "D", "thinned fcc": "v"}
 
 
 def read(pattern: str) -> list[Row]:
@@ -123,22 +125,28 @@ def _median_ratio(pairs: Sequence[tuple[Row, Row]], name: str) -> float:
 
 
 def draw(table: Sequence[Mapping[str, float | str]], against: str, label: str) -> plt.Figure:
-    """Six measures against a measure of the clusters, both flows, with intervals."""
-    figure, panels = plt.subplots(2, 3, figsize=(9.6, 5.6), layout="constrained", sharex=True)
+    """Six measures against a measure of the clusters, both flows, with intervals; a marker for every kind of family."""
+    figure, panels = plt.subplots(2, 3, figsize=(9.6, 6.2), layout="constrained", sharex=True)
     for panel, (name, title) in zip(panels.flat, PANELS.items(), strict=True):
-        for flow, colour in COLOURS.items():
-            own = sorted((row for row in table if row["flow"] == flow), key=lambda row: row[against])
-            x, y, low, high = (
-                np.array([row[key] for row in own], float) for key in (against, name, f"{name}_low", f"{name}_high")
-            )
-            panel.errorbar(x, y, [y - low, high - y], fmt="o-", ms=3.5, lw=1, capsize=2, color=colour, label=flow)
+        for row in table:
+            x, y, low, high = (float(row[key]) for key in (against, name, f"{name}_low", f"{name}_high"))
+            style = {"fmt": MARKERS[_kind(row)], "ms": 4.5, "capsize": 2, "lw": 1, "color": COLOURS[row["flow"]]}
+            filled = {"mfc": "white"} if row["flow"] == "shear" else {}
+            panel.errorbar(x, y, [[y - low], [high - y]], **style, **filled)
         panel.set_title(title, size=9)
         panel.set_yscale("log" if name in LOGARITHMIC else "linear")
         panel.grid(alpha=0.3, lw=0.5)
     for panel in panels[1]:
         panel.set_xlabel(label)
-    panels[0, 0].legend(frameon=False)
+    flows = [Line2D([], [], lw=3, color=colour, label=flow) for flow, colour in COLOURS.items()]
+    kinds = [Line2D([], [], ls="", marker=marker, color="#444444", label=kind) for kind, marker in MARKERS.items()]
+    figure.legend(handles=[*flows, *kinds], loc="outside lower center", ncols=7, frameon=False, fontsize=9)
     return figure
+
+
+def _kind(row: Mapping[str, float | str]) -> str:
+    """Family, all degrees of compaction alike."""
+    return str(row["family"]).removesuffix(" %").rstrip("0123456789").strip()
 
 
 def main() -> None:
