@@ -143,7 +143,7 @@ class _Columns:
         total = count + len(added)
         columns = self
         if self.used != count or total > len(self.values):
-            columns = _Columns(2 * total, self.values.shape[1])
+            columns = _Columns(max(total, 6 * MOST_UPDATED), self.values.shape[1])  # memory that is not used costs nothing
             columns.values[:count] = self.values[:count]
         columns.values[count:total] = added
         columns.used = total
