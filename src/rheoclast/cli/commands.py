@@ -29,6 +29,7 @@ from rheoclast.hydrodynamics.stokesian_dynamics import StokesianDynamics
 from rheoclast.mechanics.laws.jkr import JKR
 from rheoclast.mechanics.material import MATERIALS
 from rheoclast.particles.contacts import CONTACT_TOLERANCE
+from rheoclast.report import write_report
 
 app = typer.Typer(no_args_is_help=True, pretty_exceptions_enable=False, rich_markup_mode="rich")
 
@@ -207,9 +208,11 @@ def demo(
             progress,
         )
     _report("demonstration floc", "shear", analysis, output, as_json=False, dimensionless=False)
+    write_report(output, output / "report.html")
     screen.print(
-        f"look at {output / 'aggregate.png'}; next, your own spheres: "
-        "rheoclast stress FILE --unit nm --flow shear --rate 1e5 --output results",
+        f"open {output / 'report.html'} in a browser, or look at {output / 'aggregate.png'}; next, your own spheres: "
+        "rheoclast stress FILE --unit nm --flow shear --rate 1e5 --output results, "
+        "or break them: rheoclast break FILE --unit nm --flow shear --output broken",
         soft_wrap=True,
         markup=False,
     )

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FILES = ("contacts.csv", "spheres.csv", "aggregate.vtp", "aggregate.xyz", "aggregate.png", "summary.json")
+REPLACED = (*FILES, "report.html")
+"""What an analysis replaces: a page of earlier results would no longer tell the truth."""
+
 MOST_NAMED = 8
 
 
@@ -36,7 +39,7 @@ def json_text(summary: dict[str, Any]) -> str:
         raise ArithmeticError("a result is too large for a number; check rate, viscosity and strength") from None
 
 
-def prepare(folder: Path, overwrite: bool, names: Sequence[str] = FILES) -> None:
+def prepare(folder: Path, overwrite: bool, names: Sequence[str] = REPLACED) -> None:
     """Refuse a folder in which results of some names or patterns cannot be written, before anything is computed.
 
     Raises
@@ -71,7 +74,7 @@ def write_results(folder: Path, analysis: Analysis, summary: str, units: Units) 
 
 
 @contextmanager
-def finished_together(folder: Path, names: Sequence[str] = FILES) -> Iterator[Path]:
+def finished_together(folder: Path, names: Sequence[str] = REPLACED) -> Iterator[Path]:
     """A folder to write results into, which then take their place all at once; what fails leaves nothing behind.
 
     Earlier results of these names or patterns, of which there may have been more, are gone afterwards.

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import json
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import typer
@@ -19,12 +20,18 @@ from rheoclast.populations.breakage_rate import poisson_rate
 if TYPE_CHECKING:
     import pyarrow as pa
 
+    from rheoclast._checks import FloatArray
     from rheoclast.campaigns import Survey
 
 QUANTILES = (0.05, 0.5, 0.95)
 MOST_REASONS = 5
-INITIATION_COLUMNS = ["family", "initiation_rate_per_s"]
-HISTORY_COLUMNS = ["family", "material", "dissipation_m2_per_s3", "time_s", "failed", "overloaded"]
+IN_FLOWS = ["family", "material", "flow"]
+INITIATION_RATE = "initiation_rate_per_s"
+IN_HISTORIES = ["family", "material"]
+DISSIPATION = "dissipation_m2_per_s3"
+PASSAGE = ["time_s", "failed", "overloaded"]
+COLUMNS = {"history": [*IN_HISTORIES, "parameters", DISSIPATION, *PASSAGE]}
+OTHER_COLUMNS = [*IN_FLOWS, "parameters", INITIATION_RATE]
 
 
 def survey_command(
@@ -75,7 +82,7 @@ def survey_command(
 def _show(results: Survey, event: str) -> None:
     """Print counts, failures, rates, and where the files are."""
     aggregates = results.table("aggregates", ["task", "material", "failure"])
-    events = results.table("events", HISTORY_COLUMNS if event == "history" else INITIATION_COLUMNS)
+    events = results.table("events", COLUMNS.get(event, OTHER_COLUMNS))
     reasons = Counter(aggregates["failure"].drop_null().to_pylist())
     materials = len(aggregates["material"].unique())
     screen.print(
@@ -93,29 +100,49 @@ def _show(results: Survey, event: str) -> None:
 
 
 def _initiation_rates(events: pa.Table) -> Iterator[Table]:
-    """Quantiles of the rate of the flow at the first failure."""
-    families, rates = (events[name].to_numpy() for name in INITIATION_COLUMNS)
-    title = "initiation rate, 1/s: quantiles"
-    rows = []
-    for family in dict.fromkeys(families.tolist()):
-        own = rates[families == family]
-        values = np.quantile(own, QUANTILES, method="inverted_cdf")  # by which infinite rates are no obstacle
-        rows.append((family, str(len(own)), *(f"{value:.3g}" for value in values)))
-    yield _table(title, ("family", "events", *(f"{quantile:.0%}" for quantile in QUANTILES)), rows)
+    """Quantiles of the rate of the flow at the first failure, by kind of aggregate, material and flow."""
+    kinds = [*IN_FLOWS, "parameters"]
+    groups = events.group_by(kinds, use_threads=False).aggregate([(INITIATION_RATE, "list")])
+    cells = [_quantiles(rates.values.to_numpy()) for rates in groups[f"{INITIATION_RATE}_list"]]
+    headings = ("events", *(f"{quantile:.0%}" for quantile in QUANTILES))
+    return _tables(groups.select(kinds), IN_FLOWS, "initiation rate, 1/s: quantiles", headings, cells)
+
+
+def _quantiles(rates: FloatArray) -> tuple[str, ...]:
+    """Number and quantiles of rates."""
+    values = np.quantile(rates, QUANTILES, method="inverted_cdf")  # by which infinite rates are no obstacle
+    return str(len(rates)), *(f"{value:.3g}" for value in values)
 
 
 def _breakage_rates(events: pa.Table) -> Iterator[Table]:
     """First failures over the time in which they may have happened; those overloaded from the start have none."""
-    *kind, dissipation = HISTORY_COLUMNS[:3]
-    groups = events.group_by(HISTORY_COLUMNS[:3], use_threads=False)
-    rows = defaultdict(list)
-    for each in groups.aggregate([(name, "sum") for name in HISTORY_COLUMNS[3:]]).to_pylist():
-        overloaded = each["overloaded_sum"]
-        rate = _breakage_rate(each["failed_sum"] - overloaded, each["time_s_sum"])
-        rows[tuple(each[name] for name in kind)].append((f"{each[dissipation]:.3g}", str(overloaded), *rate))
+    kinds = [*IN_HISTORIES, "parameters", DISSIPATION]
+    groups = events.group_by(kinds, use_threads=False).aggregate([(name, "sum") for name in PASSAGE])
+    sums = zip(*(groups[name].to_pylist() for name in (DISSIPATION, *(f"{name}_sum" for name in PASSAGE))), strict=True)
+    cells = [
+        (f"{dissipation:.3g}", str(overloaded), *_breakage_rate(failures - overloaded, time))
+        for dissipation, time, failures, overloaded in sums
+    ]
     headings = ("m²/s³", "overloaded", "failures", "1/s", f"{CONFIDENCE:.0%} interval")
-    for (family, material), own in rows.items():
-        yield _table(f"{family}, {material}: breakage rate by dissipation", headings, own)
+    return _tables(groups.select(kinds), IN_HISTORIES, "breakage rate by dissipation", headings, cells)
+
+
+def _tables(
+    kinds: pa.Table, titled: Sequence[str], title: str, headings: Sequence[str], cells: Iterable[tuple[str, ...]]
+) -> Iterator[Table]:
+    """A table for everything that stands in the columns `titled`, with the parameters in which its rows differ."""
+    together = defaultdict(list)
+    for kind, row in zip(kinds.to_pylist(), cells, strict=True):
+        together[tuple(kind[name] for name in titled)].append((json.loads(kind["parameters"]), row))
+    for names, own in together.items():
+        shown = {name: [_shown(each.get(name)) for each, _ in own] for parameters, _ in own for name in parameters}
+        differing = {name: values for name, values in shown.items() if len(set(values)) > 1}
+        rows = [(*values, *row) for *values, (_, row) in zip(*differing.values(), own, strict=True)]
+        yield _table(f"{', '.join(names)}: {title}", (*differing, *headings), rows)
+
+
+def _shown(value: Any) -> str:
+    return f"{value:g}" if isinstance(value, float) else "" if value is None else str(value)
 
 
 def _breakage_rate(failures: int, time: float) -> tuple[str, str, str]:

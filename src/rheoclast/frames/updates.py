@@ -143,7 +143,8 @@ class _Columns:
         total = count + len(added)
         columns = self
         if self.used != count or total > len(self.values):
-            columns = _Columns(max(total, 6 * MOST_UPDATED), self.values.shape[1])  # memory that is not used costs nothing
+            # At once for all that one factorization is used for: memory that is never touched costs nothing.
+            columns = _Columns(max(total, 6 * MOST_UPDATED), self.values.shape[1])
             columns.values[:count] = self.values[:count]
         columns.values[count:total] = added
         columns.used = total

@@ -349,12 +349,13 @@ class TestOtherCommands:
         status, out, _ = run("demo", "--output", tmp_path / "demo")
         assert status == 0
         assert (tmp_path / "demo" / "aggregate.png").exists()
+        assert (tmp_path / "demo" / "report.html").exists()
         assert "rheoclast stress FILE" in out
 
     def test_version(self, run):
         assert run("--version")[1].strip() == f"rheoclast {rc.__version__}"
 
-    @pytest.mark.parametrize("command", ["stress", "info", "demo"])
+    @pytest.mark.parametrize("command", ["stress", "info", "break", "survey", "report", "demo"])
     def test_help_has_an_example(self, run, command):
         status, out, _ = run(command, "--help")
         assert status == 0
