@@ -128,7 +128,7 @@ class Conditions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     rule
         For fragments: contacts fail one at a time, "weakest", or all that are "overloaded" at once.
     up_to
-        For "breakup": rate of the flow, 1/s, above which it is not raised.
+        For "breakup" only: rate of the flow, 1/s, above which it is not raised.
     """
 
     event: str = "first failure"
@@ -149,6 +149,8 @@ class Conditions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
         if self.up_to is not None:
             _checks.positive("up_to", self.up_to)
         one_of("event", EVENTS, self.event)
+        if self.up_to is not None and self.event != "breakup":
+            raise ValueError(f"up_to: only event 'breakup' raises the flow, got {self.event!r}; remove up_to")
         self._refuse_what_others_meet()
         one_of("rule", get_args(Rule), self.rule)
         one_of("criterion", CRITERIA, self.criterion)

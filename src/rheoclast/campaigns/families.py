@@ -6,9 +6,10 @@ from collections.abc import Iterator, Mapping
 from functools import cache
 from inspect import Parameter, signature
 from itertools import product
-from typing import Any, get_origin
+from typing import Annotated, Any, get_origin
 
 import msgspec
+from msgspec import Meta
 
 from rheoclast.campaigns.choices import one_of
 from rheoclast.generation.families import FAMILIES
@@ -36,7 +37,7 @@ def combinations(
     Raises
     ------
     ValueError
-        If the family or a parameter is not known, one is missing, or a value is of another type.
+        If the family or a parameter is not known, one is missing, a list is empty, or a value is of another type.
     """
     name = asked.get("name", "")
     one_of("name", FAMILIES, name)
@@ -69,7 +70,7 @@ def _request(family: str) -> type[msgspec.Struct]:
     """The type of a family's table: every parameter but the seed as one value or a list, where a value is no list."""
     fields: list[tuple[str, Any] | tuple[str, Any, Any]] = [("name", str)]
     for name, each in _parameters(family).items():
-        several: Any = list[each.annotation]  # type: ignore[name-defined]
+        several: Any = Annotated[list[each.annotation], Meta(min_length=1)]  # type: ignore[name-defined]
         kind = several if get_origin(each.annotation) is tuple else each.annotation | several
         needed = each.default is Parameter.empty and name != SIZE
         if name != SEED:

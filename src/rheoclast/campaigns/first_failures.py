@@ -17,10 +17,9 @@ from rheoclast.breakup.contact_response import ContactResponse
 from rheoclast.campaigns.setting import Flows, Setting
 from rheoclast.flows import LinearFlow
 from rheoclast.mechanics.bonds import Bonds
-from rheoclast.mechanics.contact_loads import ContactLoads
 from rheoclast.mechanics.criteria.any_of import AnyOf
 from rheoclast.mechanics.criteria.criterion import Criterion
-from rheoclast.mechanics.criteria.load_ratios import EVERY_LIMIT, load_ratios, refuse_without_strength
+from rheoclast.mechanics.criteria.load_ratios import EVERY_LIMIT, limited_parts, load_ratios, refuse_without_strength
 from rheoclast.vectors import strain_components
 
 CHUNK = 100_000
@@ -78,7 +77,7 @@ def first_failures(
         If the bonds have another number of contacts, or no contact has a strength that the criterion needs.
     """
     refuse_without_strength(bonds, criterion)
-    limited = [k for k, part in enumerate(criterion.parts) if _has_limit(part, bonds)]
+    limited = limited_parts(bonds, criterion)
     counting = AnyOf(*(criterion.parts[k] for k in limited))
     strain_rates = np.asarray(rotations) @ flow.strain_rate @ np.swapaxes(rotations, -1, -2)
     pieces = np.array_split(strain_rates, max(1, len(strain_rates) * len(table.normals) // CHUNK))
@@ -88,19 +87,14 @@ def first_failures(
     return FirstFailures(
         np.where(fails, contact, -1),
         np.divide(flow.rate, largest, out=np.full(len(largest), np.inf), where=fails),
-        np.array(limited)[part],
+        limited[part],
         np.divide(largest - np.maximum(next_largest, 0.0), largest, out=np.zeros(len(largest)), where=fails),
     )
 
 
-def _has_limit(part: Criterion, bonds: Bonds) -> bool:
-    return any(np.isfinite(getattr(bonds, strength)).any() for strength in part.strengths)
-
-
 def _first(table: ContactResponse, bonds: Bonds, components: FloatArray, criterion: Criterion) -> tuple[Any, ...]:
     """Contact and criterion (n,) of the largest load ratio, that ratio, and the largest of any other contact."""
-    force, moment = (np.tensordot(components, part, (1, 2)) for part in (table.force, table.moment))
-    ratios = load_ratios(ContactLoads(table.normals, force, moment), bonds, criterion)
+    ratios = load_ratios(table.loads_of(components), bonds, criterion)
     largest = ratios.max(axis=2)
     contact = largest.argmax(axis=1)
     each = np.arange(len(components))

@@ -23,7 +23,7 @@ from rheoclast.histories import GradientHistory
 from rheoclast.io.histories import read_histories
 from rheoclast.turbulence import TURBULENCE_MODELS, kolmogorov_time
 
-FILES_KEPT = 64
+CAMPAIGNS_KEPT = 2
 
 
 class HistoryFile(Struct, frozen=True, forbid_unknown_fields=True):
@@ -32,12 +32,13 @@ class HistoryFile(Struct, frozen=True, forbid_unknown_fields=True):
     Attributes
     ----------
     path
-        From the current folder on.
+        Taken from the current folder on, if it is not absolute. Where the file lies is no part of what a campaign asks
+        for.
     sha256
         Hash of its contents; by default of those that it has now. They are part of what a campaign asks for.
     """
 
-    path: str
+    path: Path
     time_unit: str | float = "s"
     gradient_unit: str | float = "1/s"
     order: Literal["row", "column"] = "row"
@@ -47,6 +48,7 @@ class HistoryFile(Struct, frozen=True, forbid_unknown_fields=True):
     sha256: str = ""
 
     def __post_init__(self) -> None:
+        msgspec.structs.force_setattr(self, "path", Path(self.path).absolute())
         if not self.sha256:
             msgspec.structs.force_setattr(self, "sha256", self._hash())
 
@@ -58,22 +60,19 @@ class HistoryFile(Struct, frozen=True, forbid_unknown_fields=True):
         ValueError
             If it cannot be read, or has other contents than when it was asked for.
         """
-        return _read(self)
+        if self._hash() != self.sha256:
+            raise ValueError(f"path: {self.path} has changed since it was asked for; start anew in another folder")
+        options = msgspec.structs.asdict(self)
+        del options["sha256"]
+        return read_histories(options.pop("path"), **options)
 
     def _hash(self) -> str:
         try:
-            return sha256(Path(self.path).read_bytes()).hexdigest()
+            return sha256(self.path.read_bytes()).hexdigest()
         except OSError as error:
-            raise ValueError(f"path: {self.path} cannot be read ({error.strerror}); check the current folder") from None
-
-
-@lru_cache(FILES_KEPT)
-def _read(file: HistoryFile) -> tuple[GradientHistory, ...]:
-    if file._hash() != file.sha256:
-        raise ValueError(f"path: {file.path} has changed since it was asked for; start anew in another folder")
-    options = msgspec.structs.asdict(file)
-    del options["sha256"]
-    return read_histories(options.pop("path"), **options)
+            raise ValueError(
+                f"path: {self.path} cannot be read ({error.strerror}); check its name and folder"
+            ) from None
 
 
 class Histories(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -133,7 +132,7 @@ class Histories(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
         """
         if self.model is not None:
             return
-        unit, paths = self._in_files
+        unit, paths = _in_files(self)
         if self.number is not None and self.number > len(paths):
             raise ValueError(f"number: expected at most {len(paths)}, the histories in the files, got {self.number}")
         shortest = min(path.duration for path in paths) / unit
@@ -148,7 +147,7 @@ class Histories(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
         kinematic = self.kinematic_viscosity if self.density is None else viscosity / self.density
         assert kinematic is not None
         if self.dissipations is None:
-            unit, _ = self._in_files
+            unit, _ = _in_files(self)
             return {kinematic / unit**2: unit}
         return {each: kolmogorov_time(each, kinematic) for each in self.dissipations}
 
@@ -156,27 +155,17 @@ class Histories(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
         """The histories of one aggregate in Kolmogorov times, by their number in the model's sequence or the files."""
         if self.model is not None:
             return dict(enumerate(TURBULENCE_MODELS[self.model](self.number, self.duration, 1.0, 1.0, seed)))
-        unit, paths = self._in_files
+        unit, paths = _in_files(self)
         number = len(paths) if self.number is None else self.number
         chosen = np.random.default_rng(seed).choice(len(paths), number, replace=False)
         return {k: paths[k].scaled(unit) for k in sorted(chosen.tolist())}
-
-    @property
-    def _in_files(self) -> tuple[float, tuple[GradientHistory, ...]]:
-        """Kolmogorov time in s, and the histories."""
-        assert self.files is not None
-        paths = tuple(path for file in self.files for path in file.read())  # type: ignore[union-attr]
-        squares = sum(path.dissipation(1.0) * path.duration for path in paths)
-        if not squares > 0:
-            raise ValueError("files: expected velocity gradients with strain, got none; check the files")
-        return float(np.sqrt(sum(path.duration for path in paths) / squares)), paths
 
     def _take_hashes(self) -> None:
         assert self.files is not None
         files = []
         for position, each in enumerate(self.files):
             try:
-                files.append(HistoryFile(each) if isinstance(each, str) else each)
+                files.append(HistoryFile(Path(each)) if isinstance(each, str) else each)
             except ValueError as error:
                 raise ValueError(f"files[{position}]: {error}") from None
         msgspec.structs.force_setattr(self, "files", tuple(files))
@@ -186,3 +175,14 @@ class Histories(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
         for name in ("number", "duration", "dissipations"):
             if getattr(self, name) is None:
                 raise ValueError(f"{name}: expected with a model of turbulence, got none; add it")
+
+
+@lru_cache(CAMPAIGNS_KEPT)
+def _in_files(histories: Histories) -> tuple[float, tuple[GradientHistory, ...]]:
+    """Kolmogorov time in s, and the histories, which all aggregates of a campaign draw from."""
+    assert histories.files is not None
+    paths = tuple(path for file in histories.files for path in file.read())  # type: ignore[union-attr]
+    squares = sum(path.dissipation(1.0) * path.duration for path in paths)
+    if not squares > 0:
+        raise ValueError("files: expected velocity gradients with strain, got none; check the files")
+    return float(np.sqrt(sum(path.duration for path in paths) / squares)), paths

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from hashlib import sha256
+from pathlib import Path
 from typing import Any
 
 import msgspec
@@ -12,8 +13,14 @@ DIGITS = 32
 
 
 def canonical(value: Any) -> bytes:
-    """JSON with sorted keys: the same bytes for equal values."""
-    return msgspec.json.encode(value, order="deterministic")
+    """JSON with sorted keys: the same bytes for equal values. A path counts by the name of its file alone."""
+    return msgspec.json.encode(value, order="deterministic", enc_hook=_name)
+
+
+def _name(value: Any) -> str:
+    if not isinstance(value, Path):
+        raise TypeError(f"value: expected what JSON can hold, or a path, got {type(value).__name__}")
+    return value.name
 
 
 def digest(value: Any) -> str:

@@ -18,7 +18,7 @@ from msgspec import Meta, Struct
 
 from rheoclast.campaigns.choices import COUNTING, NATURAL
 from rheoclast.campaigns.conditions import Conditions
-from rheoclast.campaigns.families import combinations, is_random
+from rheoclast.campaigns.families import RADIUS, combinations, is_random
 from rheoclast.campaigns.identity import derived_seed
 from rheoclast.campaigns.task import Task
 from rheoclast.hydrodynamics.response import DIMENSIONLESS_VISCOSITY
@@ -64,7 +64,7 @@ class Campaign(Conditions, frozen=True, forbid_unknown_fields=True, kw_only=True
 
     def __post_init__(self) -> None:
         Conditions.__post_init__(self)
-        list(self._kinds())
+        list(self.kinds())
         self._refuse_unreadable_histories()
 
     def tasks(self) -> tuple[Task, ...]:
@@ -73,7 +73,7 @@ class Campaign(Conditions, frozen=True, forbid_unknown_fields=True, kw_only=True
 
     def _tasks(self) -> Iterator[Task]:
         conditions = Conditions(**{name: getattr(self, name) for name in Conditions.__struct_fields__})
-        for family, parameters in self._kinds():
+        for family, parameters in self.kinds():
             replicates = range(self.seeds.first, self.seeds.first + self.seeds.number) if is_random(family) else (0,)
             for replicate in replicates:
                 identity = (family, parameters, replicate)
@@ -87,7 +87,8 @@ class Campaign(Conditions, frozen=True, forbid_unknown_fields=True, kw_only=True
                     conditions=conditions,
                 )
 
-    def _kinds(self) -> Iterator[tuple[str, dict[str, Any]]]:
+    def kinds(self) -> Iterator[tuple[str, dict[str, Any]]]:
+        """Family and parameters of every kind of aggregates."""
         for position, asked in enumerate(self.families):
             try:
                 yield from combinations(asked, self.sizes, self.radius)
@@ -103,7 +104,7 @@ class Campaign(Conditions, frozen=True, forbid_unknown_fields=True, kw_only=True
 
 
 def read_campaign(path: str | os.PathLike[str]) -> Campaign:
-    """The campaign of a TOML file.
+    """The campaign of a TOML file, from whose folder on the paths of files of histories are taken.
 
     Raises
     ------
@@ -115,18 +116,40 @@ def read_campaign(path: str | os.PathLike[str]) -> Campaign:
     Warns
     -----
     UnitWarning
-        If the radius or the viscosity is so large that its unit is probably wrong.
+        If a radius or the viscosity is so large that its unit is probably wrong.
     """
     try:
-        campaign = msgspec.toml.decode(Path(path).read_bytes(), type=Campaign)
+        request = msgspec.toml.decode(Path(path).read_bytes())
+        campaign = msgspec.convert(_located(request, Path(path).parent), Campaign, dec_hook=_as_path)
     except FileNotFoundError:
         raise FileNotFoundError(f"{path}: there is no such file; check its name and the current folder") from None
     except ValueError as error:
         raise ValueError(f"{path}: {plain(error)}") from None
     if campaign.viscosity != DIMENSIONLESS_VISCOSITY:
-        warn_of_radii(np.array([campaign.radius]))
+        warn_of_radii(np.array([campaign.radius, *(parameters[RADIUS] for _, parameters in campaign.kinds())]))
         warn_of_viscosity(campaign.viscosity)
     return campaign
+
+
+def _located(request: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """The same request, with the files of histories where they lie as seen from a folder."""
+    histories = request.get("histories")
+    if not isinstance(histories, dict) or not isinstance(histories.get("files"), list):
+        return request
+    files = [_located_file(each, folder) for each in histories["files"]]
+    return {**request, "histories": {**histories, "files": files}}
+
+
+def _located_file(file: Any, folder: Path) -> Any:
+    if isinstance(file, str):
+        return str(folder / file)
+    path = file.get("path") if isinstance(file, dict) else None
+    return {**file, "path": str(folder / path)} if isinstance(path, str) else file
+
+
+def _as_path(kind: type, value: Any) -> Path:
+    """What stands for a path, the only type of a campaign that TOML does not know."""
+    return Path(value)
 
 
 def plain(error: Exception) -> str:

@@ -14,12 +14,17 @@ import pyarrow.parquet as pq
 
 from rheoclast import _checks
 from rheoclast.campaigns import cluster, local_pool
+from rheoclast.campaigns.choices import one_of
 from rheoclast.campaigns.request import Campaign
 from rheoclast.campaigns.store import Store
 from rheoclast.campaigns.task import Task, failed, perform
 from rheoclast.campaigns.worker import WorkerLost
 
 Progress = Callable[[int, int], None]
+
+Performed = Callable[[list[Task]], Generator[tuple[Task, pa.Table | WorkerLost], None, None]]
+
+TABLES = ("events", "aggregates")
 
 
 @dataclass(frozen=True)
@@ -36,7 +41,14 @@ class Survey:
     aggregates: Path
 
     def table(self, name: str, columns: list[str] | None = None) -> pa.Table:
-        """One of the tables, "events" or "aggregates", or some of its columns."""
+        """One of the tables, "events" or "aggregates", or some of its columns.
+
+        Raises
+        ------
+        ValueError
+            If there is no such table.
+        """
+        one_of("name", TABLES, name)
         return pq.read_table(getattr(self, name), columns=columns)
 
 
@@ -74,30 +86,33 @@ def survey(
     ------
     FileExistsError
         If the folder belongs to another campaign.
+    BlockingIOError
+        If another process works in the folder.
     OSError
         If the scheduler is not there, or goes away.
     """
     store = Store(Path(folder))
     performed = _performed(workers, scheduler)
-    store.claim(campaign)
-    tasks = campaign.tasks()
+    with store.claimed(campaign):
+        _complete(store, campaign.tasks(), performed, retry, progress or (lambda done, number: None))
+        store.merge(campaign)
+    return Survey(store.events, store.aggregates)
+
+
+def _complete(store: Store, tasks: tuple[Task, ...], performed: Performed, retry: bool, tell: Progress) -> None:
+    """Do the tasks that are not finished, and keep their results as they come."""
     for task in store.failed(task for task in tasks if store.has(task)) if retry else ():
         store.forget(task)
     missing = [task for task in tasks if not store.has(task)]
     finished = len(tasks) - len(missing)
-    tell = progress or (lambda done, number: None)
     tell(finished, len(tasks))
     with closing(performed(missing)) as arriving:  # an interruption ends the workers at once
         for done, (task, results) in enumerate(arriving, finished + 1):
             store.keep(task, failed(task, results.reason) if isinstance(results, WorkerLost) else results)
             tell(done, len(tasks))
-    store.merge(campaign)
-    return Survey(store.events, store.aggregates)
 
 
-def _performed(
-    workers: int | None, scheduler: str | None
-) -> Callable[[list[Task]], Generator[tuple[Task, pa.Table | WorkerLost], None, None]]:
+def _performed(workers: int | None, scheduler: str | None) -> Performed:
     """How tasks are performed: by processes of this machine, or by a cluster."""
     if scheduler is None:
         number = (os.cpu_count() or 1) if workers is None else _checks.whole_number("workers", workers, 1)

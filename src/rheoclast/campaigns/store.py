@@ -1,12 +1,12 @@
 """What a campaign keeps: a folder of Parquet files.
 
 Every finished task is one file, named after the hash of its inputs. It is written under another name first and then
-renamed, so that a file that is there is whole. When all are there they are merged, in the order of the campaign.
+renamed, so that a file that is there is whole. When all are there they are merged, in the order of the campaign. One
+process at a time works in a folder.
 """
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -19,8 +19,10 @@ import pyarrow.parquet as pq
 
 from rheoclast.campaigns.events import EVENTS
 from rheoclast.campaigns.identity import canonical
+from rheoclast.campaigns.lock import locked
 from rheoclast.campaigns.request import Campaign
 from rheoclast.campaigns.task import AGGREGATE, EVENT_LIST, IDENTITY, Task
+from rheoclast.io.files import replacing
 
 ROWS_TOGETHER = 500_000
 """Rows that are gathered before they are written, in one row group."""
@@ -53,14 +55,22 @@ class Store:
         """One row per material of every aggregate."""
         return self.folder / "aggregates.parquet"
 
-    def claim(self, campaign: Campaign) -> None:
-        """Make the folder that of a campaign.
+    @contextmanager
+    def claimed(self, campaign: Campaign) -> Iterator[None]:
+        """Make the folder that of a campaign, and keep other processes out of it meanwhile.
 
         Raises
         ------
         FileExistsError
             If it belongs to another campaign, or holds other things.
+        BlockingIOError
+            If another process works in it.
         """
+        self._claim(campaign)
+        with locked(self.folder):
+            yield
+
+    def _claim(self, campaign: Campaign) -> None:
         request = msgspec.json.format(canonical(campaign), indent=2)
         if not self.request.exists():
             self.folder.mkdir(parents=True, exist_ok=True)
@@ -69,7 +79,7 @@ class Store:
                 raise FileExistsError(
                     f"{self.folder}: expected a new or empty folder, got one with {others[0]}; choose another folder"
                 )
-            with _replacing(self.request) as unfinished:
+            with replacing(self.request, overwrite=True) as unfinished:
                 unfinished.write_bytes(request)
         elif self.request.read_bytes() != request:
             raise FileExistsError(
@@ -79,12 +89,16 @@ class Store:
         (self.folder / "tasks").mkdir(exist_ok=True)
 
     def has(self, task: Task) -> bool:
-        """Whether a task is finished."""
-        return self._path(task).exists()
+        """Whether a task is finished; a file that cannot be read, as a full disk may leave one, does not count."""
+        try:
+            pq.read_metadata(self._path(task))
+        except (OSError, pa.ArrowInvalid):
+            return False
+        return True
 
     def keep(self, task: Task, results: pa.Table) -> None:
         """Write the results of a task, all or nothing."""
-        with _replacing(self._path(task)) as unfinished:
+        with replacing(self._path(task), overwrite=True) as unfinished:
             pq.write_table(results, unfinished)
 
     def failed(self, tasks: Iterable[Task]) -> list[Task]:
@@ -113,7 +127,10 @@ class Store:
 
 def _write(path: Path, schema: pa.Schema, tables: Iterable[pa.Table]) -> None:
     """Write many tables as one."""
-    with _replacing(path) as unfinished, pq.ParquetWriter(unfinished, schema, compression="zstd") as writer:
+    with (
+        replacing(path, overwrite=True) as unfinished,
+        pq.ParquetWriter(unfinished, schema, compression="zstd") as writer,
+    ):
         for table in _gathered(tables):
             writer.write_table(table, row_group_size=table.num_rows)
 
@@ -138,11 +155,3 @@ def _events(results: pa.Table) -> pa.Table:
     events = listed.flatten()
     identity = results.select(IDENTITY.names).take(pc.list_parent_indices(listed))
     return pa.table([*identity.columns, *events.flatten()], names=[*IDENTITY.names, *events.type.names])
-
-
-@contextmanager
-def _replacing(path: Path) -> Iterator[Path]:
-    """Path of an unfinished file that becomes `path`; what a killed program leaves there, the next one overwrites."""
-    unfinished = path.with_name(f".{path.name}")
-    yield unfinished
-    os.replace(unfinished, path)

@@ -20,6 +20,7 @@ from scipy.spatial.transform import Rotation
 from rheoclast import _checks
 from rheoclast._checks import FloatArray
 from rheoclast.flows import LinearFlow
+from rheoclast.histories import traceless
 from rheoclast.hydrodynamics.response import RigidResponse
 from rheoclast.vectors import LEVI_CIVITA, strain_components
 
@@ -107,12 +108,13 @@ class Trajectory:
     def flow(self, time: float) -> LinearFlow:
         """The flow at one time as seen from the aggregate, for everything that takes a flow in body axes.
 
-        A steady flow keeps the rate by which it is quoted; a changing one is quoted by its magnitude.
+        A steady flow keeps the rate by which it is quoted; a changing one is quoted by its magnitude. The trace that
+        rounding leaves where gradients nearly cancel between samples is taken away.
         """
         backwards = self.rotation(_checks.real_array("time", time, ())).T
         if isinstance(self.undisturbed, LinearFlow):
             return self.undisturbed.rotated(backwards)
-        return LinearFlow(_gradients(self.undisturbed, self._within(time))).rotated(backwards)
+        return LinearFlow(traceless(_gradients(self.undisturbed, self._within(time)))).rotated(backwards)
 
     @cached_property
     def _interpolant(self) -> PPoly:
@@ -162,8 +164,8 @@ def trajectory(
     TypeError
         If response or flow are something else.
     ValueError
-        If the duration is not positive or exceeds the samples, the tolerance is out of its range, the gradients are not
-        linear between the samples, or their magnitude times the duration exceeds a million.
+        If the duration is not positive or exceeds the samples, the tolerance is out of its range, the gradients have a
+        trace or are not linear between the samples, or their magnitude times the duration exceeds a million.
     """
     _checks.instance("response", response, RigidResponse, "make one with rigid_response(spheres, model, viscosity)")
     tolerance = _checks.positive("tolerance", tolerance)
@@ -221,6 +223,13 @@ def _knots(flow: LinearFlow | Gradients, duration: float | None) -> FloatArray:
 def _samples(flow: LinearFlow | Gradients, knots: FloatArray) -> FloatArray:
     """Velocity gradients (n, 3, 3) at the knots."""
     gradients = _gradients(flow, knots)
+    traces = np.abs(np.trace(gradients, axis1=1, axis2=2))
+    if traces.max() > LINEARITY * np.abs(gradients).max():
+        worst = int(traces.argmax())
+        raise ValueError(
+            f"gradient: expected zero trace (an incompressible flow), got {traces[worst]:.3g} 1/s at "
+            f"{knots[worst]:g} s; subtract a third of it from the diagonal if it is an error of the data"
+        )
     between = _gradients(flow, 0.5 * (knots[:-1] + knots[1:]))
     bend = np.abs(between - 0.5 * (gradients[:-1] + gradients[1:])).max(axis=(1, 2))
     if bend.max() > LINEARITY * np.abs(gradients).max():

@@ -17,7 +17,7 @@ def read_pairs(path: str | os.PathLike[str]) -> IntArray:
     Raises
     ------
     FileFormatError
-        If there are no columns i and j, or a cell of them is not a whole number.
+        If there are no columns i and j or a cell of them is not a whole number.
     """
     file = load(path)
     rows = list(named_rows(file))

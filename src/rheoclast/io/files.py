@@ -88,7 +88,7 @@ def replacing(path: str | os.PathLike[str], overwrite: bool = False) -> Iterator
     """Path of a temporary file that becomes `path` when the block ends, and vanishes when the block fails.
 
     It lies in the same folder and has the same suffix, so that the last step is one rename and a library that goes
-    by the suffix writes the right format.
+    by the suffix writes the right format. It is on the disk before it is renamed: no power cut leaves an empty file.
 
     Raises
     ------
@@ -101,6 +101,8 @@ def replacing(path: str | os.PathLike[str], overwrite: bool = False) -> Iterator
     temporary = target.with_name(f".{target.stem}-{secrets.token_hex(4)}{target.suffix}")
     try:
         yield temporary
+        with temporary.open("rb+") as finished:
+            os.fsync(finished.fileno())
         if target.exists():
             shutil.copymode(target, temporary)
         os.replace(temporary, target)

@@ -77,7 +77,8 @@ def read_histories(
         If there is no such file.
     FileFormatError
         If the file cannot be understood, with the line where there is one; if a number is missing or not finite, times
-        do not increase, a trace exceeds the tolerance, or names in the file contradict `time_unit` or `order`.
+        do not increase, a trace exceeds the tolerance, or the file contradicts `time_unit`, `gradient_unit` or
+        `order` by its names or attributes.
     ImportError
         If HDF5 is to be read and h5py is not installed.
 
@@ -91,7 +92,9 @@ def read_histories(
         raise ValueError(f"order: expected 'row' or 'column', got {order!r:.60}")
     histories = []
     for samples in _format(path, format).read(Path(path), arrays):
-        _refuse_contradiction(path, samples, time_unit, seconds, order)
+        _refuse_other_unit(path, "time", time_unit, seconds, samples.time_unit, SECONDS)
+        _refuse_other_unit(path, "gradient", gradient_unit, per_second, samples.gradient_unit, PER_SECOND)
+        _refuse_other_order(path, samples, order)
         entries = samples.entries if order == "row" else np.swapaxes(samples.entries, 1, 2)
         with _named(path, samples.label):
             history = GradientHistory(seconds * samples.times, per_second * entries, tolerance)
@@ -182,13 +185,19 @@ def _value(name: str, unit: str | float, known: Mapping[str, float]) -> float:
     return known[unit]
 
 
-def _refuse_contradiction(path: PathName, samples: Samples, time_unit: str | float, seconds: float, order: str) -> None:
-    """Refuse arguments that the names of the columns gainsay: the error would be a factor, or the wrong rotation."""
-    if samples.time_unit and time_unit != "dimensionless" and not np.isclose(SECONDS[samples.time_unit], seconds):
+def _refuse_other_unit(
+    path: PathName, quantity: str, asked: str | float, value: float, found: str | None, known: Mapping[str, float]
+) -> None:
+    """Refuse a unit that the file gainsays: the error would be a factor."""
+    if found and asked != "dimensionless" and not np.isclose(known[found], value, atol=0):
         raise FileFormatError(
-            f"{path}: expected times in {time_unit}, got a column in {samples.time_unit} by its name; "
-            f"pass time_unit={samples.time_unit!r} or rename the column"
+            f"{path}: expected {quantity}s in {asked}, got a column in {found} by its name; "
+            f"pass {quantity}_unit={found!r} or rename the column"
         )
+
+
+def _refuse_other_order(path: PathName, samples: Samples, order: str) -> None:
+    """Refuse an order that the names of the columns gainsay: the error would be the wrong rotation."""
     if order == "column" and not samples.transposable:
         raise FileFormatError(
             f"{path}: expected entries that order='column' can transpose, got columns named as derivatives, "

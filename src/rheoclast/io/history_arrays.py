@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Container, Iterator
 from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 from rheoclast._checks import FloatArray
 from rheoclast.errors import FileFormatError
 from rheoclast.histories import GradientHistory
-from rheoclast.io.history_samples import SECONDS, Samples
+from rheoclast.io.history_samples import PER_SECOND, SECONDS, Samples, inverse_time_unit
+
+Units = tuple[str | None, str | None]
 
 
 def read_npy(path: Path, arrays: tuple[str, str]) -> Iterator[Samples]:
@@ -49,11 +51,11 @@ def write_npz(path: Path, histories: tuple[GradientHistory, ...]) -> None:
 
 
 def read_hdf5(path: Path, arrays: tuple[str, str]) -> Iterator[Samples]:
-    """Paths in two datasets; a unit of time in the attribute `unit` is heeded."""
+    """Paths in two datasets; units in their attributes `unit` are heeded."""
     with _opened(path, _h5py().File) as file:
         times, gradients = (_taken(path, file, name) for name in arrays)
-        unit = file[arrays[0]].attrs.get("unit")
-        return _split(path, times, gradients, unit if isinstance(unit, str) and unit in SECONDS else None)
+        units = (_unit(file[arrays[0]], SECONDS), _unit(file[arrays[1]], PER_SECOND))
+        return _split(path, times, gradients, units)
 
 
 def write_hdf5(path: Path, histories: tuple[GradientHistory, ...]) -> None:
@@ -62,6 +64,13 @@ def write_hdf5(path: Path, histories: tuple[GradientHistory, ...]) -> None:
     with _h5py().File(path, "w") as file:
         file.create_dataset("t", data=times).attrs["unit"] = "s"
         file.create_dataset("gradient", data=gradients).attrs["unit"] = "1/s"
+
+
+def _unit(dataset: Any, known: Container[str]) -> str | None:
+    """What the attribute `unit` of a dataset says, if it is understood."""
+    given = dataset.attrs.get("unit")
+    unit = inverse_time_unit(given.decode("utf-8", "replace") if isinstance(given, bytes) else str(given))
+    return unit if unit in known else None
 
 
 def _h5py() -> Any:
@@ -101,8 +110,8 @@ def _taken(path: Path, holder: Any, name: str) -> NDArray[Any]:
         raise FileFormatError(f"{path}: expected numbers in {name!r}, got what cannot be read ({error})") from None
 
 
-def _split(path: Path, times: NDArray[Any], gradients: NDArray[Any], time_unit: str | None = None) -> Iterator[Samples]:
-    """Samples of every path from arrays of all."""
+def _split(path: Path, times: NDArray[Any], gradients: NDArray[Any], units: Units = (None, None)) -> Iterator[Samples]:
+    """Samples of every path from arrays of all; the units of instants and gradients where the file says them."""
     if times.dtype.kind not in "iuf" or gradients.dtype.kind not in "iuf":
         raise FileFormatError(f"{path}: expected numbers, got arrays of {times.dtype} and {gradients.dtype}")
     if gradients.shape[-1:] == (9,):
@@ -114,9 +123,9 @@ def _split(path: Path, times: NDArray[Any], gradients: NDArray[Any], time_unit: 
             f"got {times.shape} and {gradients.shape}"
         )
     if len(instants) == 1:
-        return iter([Samples("", times, gradients, time_unit)])
+        return iter([Samples("", times, gradients, *units)])
     times = np.broadcast_to(times, instants)
-    return (Samples(f"trajectory {k}", *each, time_unit) for k, each in enumerate(zip(times, gradients, strict=True)))
+    return (Samples(f"trajectory {k}", *each, *units) for k, each in enumerate(zip(times, gradients, strict=True)))
 
 
 def _joined(histories: tuple[GradientHistory, ...]) -> tuple[FloatArray, FloatArray]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import NamedTuple
 
 from rheoclast._checks import FloatArray
@@ -17,4 +18,10 @@ class Samples(NamedTuple):
     times: FloatArray
     entries: FloatArray
     time_unit: str | None = None
+    gradient_unit: str | None = None
     transposable: bool = True
+
+
+def inverse_time_unit(text: str) -> str:
+    """A unit of the gradient as `PER_SECOND` has it, where it stands as a power: s^-1, s-1 or s⁻¹ for 1/s."""
+    return re.sub(r"^(\w+?)(?:(?:\^|\*\*)?-1|⁻¹)$", r"1/\1", text)

@@ -1,9 +1,9 @@
 """Tables of velocity-gradient histories: rows of a time and nine entries.
 
 The first line of a table may name its columns, in any order: `t`, a unit behind it (`t_ms`, `t (ms)`); the entries by
-their places (`A11`, `g_xy`) or by their meaning (`dudx`, `du_x/dy`), which then decides and not `order`; and
-`trajectory` (or `id`, `track`, `particle`), a number that tells the paths apart. Other columns are passed over. Without
-such names the columns are t and nine entries.
+their places (`A11`, `g_xy`) or by their meaning (`dudx`, `du_x/dy`), which then decides and not `order`, a unit behind
+them (`dudx (1/ms)`, `A11_1/ms`); and `trajectory` (or `id`, `track`, `particle`), a number that tells the paths apart.
+Other columns are passed over. Without such names the columns are t and nine entries.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from rheoclast._checks import FloatArray
 from rheoclast.histories import GradientHistory
 from rheoclast.io import csv_table
 from rheoclast.io.files import TextFile, load
-from rheoclast.io.history_samples import SECONDS, Samples
+from rheoclast.io.history_samples import PER_SECOND, SECONDS, Samples, inverse_time_unit
 
 DERIVATIVES = tuple(f"d{velocity}d{axis}" for velocity in "uvw" for axis in "xyz")
 
@@ -29,7 +29,7 @@ _NUMBER = re.compile(r"\s*[-+]?\.?\d")
 _TIME = re.compile(r"t(?:ime)?(?:[ _]*[\[(/]?\s*(\w+)\s*[\])]?)?")
 _DERIVATIVE = re.compile(r"d(?:u_?([xyz123])|([uvw]))[_/]?d(?:x_?([123])|([xyz]))")
 _ENTRY = re.compile(r"(?:a|g|l|grad|gradient|gamma)?_?([xyz123])[_,]?([xyz123])")
-_UNIT_BEHIND = re.compile(r"\s*[\[(].*|_1/\w+$")
+_UNIT_BEHIND = re.compile(r"\s*[\[(]\s*(.*?)\s*[\])]?$|_(1/\w+)$")
 _TRAJECTORY = {"trajectory", "id", "track", "particle"}
 
 
@@ -45,7 +45,7 @@ def read_table(path: Path, arrays: tuple[str, str]) -> Iterator[Samples]:
     values = _numbers(file, first, mark)
     for label, rows in _paths(values, columns.trajectory):
         entries = rows[:, columns.entries].reshape(-1, 3, 3)
-        yield Samples(label, rows[:, columns.time], entries, columns.time_unit, columns.transposable)
+        yield Samples(label, rows[:, columns.time], entries, *columns.units, columns.transposable)
 
 
 class _Columns(NamedTuple):
@@ -53,13 +53,14 @@ class _Columns(NamedTuple):
 
     time: int
     entries: list[int]
-    time_unit: str | None = None
+    units: tuple[str | None, str | None] = (None, None)
     trajectory: int | None = None
     transposable: bool = True
 
 
 def _names(file: TextFile, first: int, mark: str | None, width: int) -> list[str]:
     """Names in the last line above the first row of numbers; empty where that is a comment on something else."""
+    _refuse_lost_rows(file, first, mark, width)
     header = next((line.strip() for line in reversed(file.lines[:first]) if line.strip()), "#")
     names = [cell.strip() for cell in header.lstrip("# ").split(mark)]
     if len(names) == width:
@@ -69,12 +70,31 @@ def _names(file: TextFile, first: int, mark: str | None, width: int) -> list[str
     raise file.error(f"expected names for {width} columns, got {len(names)}: {header!r:.60}; correct this line", first)
 
 
+def _refuse_lost_rows(file: TextFile, first: int, mark: str | None, width: int) -> None:
+    """Refuse a row of numbers above the first: what stands in place of its time must not make names of it."""
+    for line, text in enumerate(file.lines[:first], 1):
+        cells = text.split(mark)
+        if not text.lstrip().startswith("#") and len(cells) == width and any(map(_is_number, cells[1:])):
+            raise file.error(
+                f"expected names of columns or a row of numbers, got {text.strip()!r:.60}; correct or remove this line",
+                line,
+            )
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
 def _columns(file: TextFile, names: list[str], first: int) -> _Columns:
     """Meaning of the columns by their names, or by their places where none is named as an entry."""
     lower = [name.lower() for name in names]
     times = {k: found[1] for k, name in enumerate(lower) if (found := _TIME.fullmatch(name)) and _known(found[1])}
     trajectory = next((k for k, name in enumerate(lower) if name in _TRAJECTORY), None)
-    bare = [_UNIT_BEHIND.sub("", name) for name in lower]
+    bare = [_UNIT_BEHIND.sub("", name, count=1) for name in lower]
     for pattern in (_DERIVATIVE, _ENTRY):
         places = {k: _place(found) for k, name in enumerate(bare) if (found := pattern.fullmatch(name))}
         if places:
@@ -88,7 +108,7 @@ def _columns(file: TextFile, names: list[str], first: int) -> _Columns:
             f"first line (t, {', '.join(DERIVATIVES)})",
             first + 1,
         )
-    return _Columns(time, rest, times.get(time), trajectory)
+    return _Columns(time, rest, (times.get(time), None), trajectory)
 
 
 def _known(unit: str | None) -> bool:
@@ -118,7 +138,20 @@ def _named_columns(
             f"expected all nine entries of the gradient once, got {', '.join(names[k] for k in places)!r:.80}", first
         )
     ((time, unit),) = times.items()
-    return _Columns(time, [column[place] for place in range(9)], unit, trajectory, transposable)
+    units = (unit, _gradient_unit(file, first, [names[k] for k in places]))
+    return _Columns(time, [column[place] for place in range(9)], units, trajectory, transposable)
+
+
+def _gradient_unit(file: TextFile, first: int, names: list[str]) -> str | None:
+    """The unit behind the names of the entries, if there is one."""
+    behind = [found[1] or found[2] for name in names if (found := _UNIT_BEHIND.search(name.lower()))]
+    units = sorted({inverse_time_unit(unit) for unit in behind if unit})
+    for unit in units:
+        if unit not in PER_SECOND:
+            raise file.error(f"expected one of {', '.join(PER_SECOND)} behind the entries, got {unit!r:.60}", first)
+    if len(units) > 1 or (units and len(behind) < len(names)):
+        raise file.error(f"expected the same unit behind all entries, got {', '.join(names)!r:.80}", first)
+    return units[0] if units else None
 
 
 def _numbers(file: TextFile, first: int, mark: str | None) -> FloatArray:

@@ -16,7 +16,7 @@ from rheoclast.io.files import replacing
 from rheoclast.populations.kernel_table import KERNEL_COLUMNS
 
 
-def write_kernel(path: str | os.PathLike[str], table: Mapping[str, FloatArray], overwrite: bool = False) -> None:
+def write_kernel(path: str | os.PathLike[str], table: Mapping[str, FloatArray], *, overwrite: bool = False) -> None:
     """Write a table of breakage kernels together with the meaning of its columns.
 
     A file .csv begins with one line ``# column: meaning`` per column, before the line with the names; in a file

@@ -12,6 +12,7 @@ from rheoclast._checks import FloatArray
 from rheoclast.histories import GradientHistory
 
 STEPS_PER_KOLMOGOROV_TIME = 10
+MOST_INSTANTS = 10**8  # of all histories together: 7 GB of gradients
 
 
 def kolmogorov_time(dissipation: float, kinematic_viscosity: float) -> float:
@@ -41,14 +42,25 @@ class Request:
         seed: int,
         step: float | None,
     ) -> Request:
-        """A request in SI units; the step is shortened until a whole number of them makes the duration."""
+        """A request in SI units; the step is shortened until a whole number of them makes the duration.
+
+        Raises
+        ------
+        ValueError
+            If a number is not positive, or there would be more than 10⁸ instants in all.
+        """
         unit = kolmogorov_time(dissipation, kinematic_viscosity)
         duration = _checks.positive("duration", duration)
         step = unit / STEPS_PER_KOLMOGOROV_TIME if step is None else _checks.positive("step", step)
+        count, seed = _checks.whole_number("count", count, 1), _checks.whole_number("seed", seed, 0)
+        total = count * (duration / step + 1)
+        if total > MOST_INSTANTS:
+            raise ValueError(
+                f"step, duration, count: expected at most {MOST_INSTANTS:g} instants in all, got {total:.3g}; "
+                "make the histories shorter, fewer or coarser"
+            )
         steps = int(np.ceil(duration / step * (1 - 1e-12)))
-        streams = np.random.SeedSequence(_checks.whole_number("seed", seed, 0)).spawn(
-            _checks.whole_number("count", count, 1)
-        )
+        streams = np.random.SeedSequence(seed).spawn(count)
         instants = np.linspace(0, duration / unit, steps + 1)
         return cls(_checks.frozen(instants), unit, tuple(map(np.random.default_rng, streams)))
 

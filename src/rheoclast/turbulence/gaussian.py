@@ -52,7 +52,7 @@ def gaussian_histories(
     Raises
     ------
     ValueError
-        If a number is not positive, or the seed negative.
+        If a number is not positive, the seed negative, or there would be more than 10⁸ instants in all.
     """
     request = Request.checked(count, duration, dissipation, kinematic_viscosity, seed, step)
     return tuple(request.history(_path(request.step, len(request.instants), random)) for random in request.random)

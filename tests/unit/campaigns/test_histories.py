@@ -81,6 +81,25 @@ def test_a_file_that_changes_is_refused(file):
         histories.drawn(1)
 
 
+def test_each_of_many_files_is_read_once(tmp_path, monkeypatch):
+    """However many aggregates draw from them."""
+    count = 70
+    for k, history in enumerate(rc.gaussian_histories(count, 1e-3, 1.0, 1e-6, seed=5)):
+        rc.write_histories(tmp_path / f"{k}.npz", history)
+    read = []
+
+    def remembered(path, **options):
+        read.append(path)
+        return rc.read_histories(path, **options)
+
+    monkeypatch.setattr("rheoclast.campaigns.histories.read_histories", remembered)
+    histories = Histories(files=tuple(str(tmp_path / f"{k}.npz") for k in range(count)), density=1e3)
+    for seed in range(3):
+        histories.drawn(seed)
+        pickle.loads(pickle.dumps(histories)).kolmogorov_times(1e-3)
+    assert len(read) == count
+
+
 def test_files_without_strain_are_refused(tmp_path):
     rotation = np.array([[0.0, 1, 0], [-1, 0, 0], [0, 0, 0]])
     rc.write_histories(tmp_path / "still.npz", rc.GradientHistory(np.arange(2.0), np.array([rotation, rotation])))

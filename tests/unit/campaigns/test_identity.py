@@ -1,5 +1,7 @@
 """Hashes and seeds that follow from what something is."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -16,6 +18,13 @@ def test_order_of_keys_does_not_matter_but_values_do():
     assert digest(same) == digest(SOMETHING) != digest({**SOMETHING, "count": 13})
     assert len(digest(SOMETHING)) == DIGITS
     assert int(digest(SOMETHING), 16)
+
+
+def test_a_path_counts_by_the_name_of_its_file():
+    assert canonical({"path": Path("here") / "a.csv"}) == canonical({"path": Path("there") / "a.csv"})
+    assert digest(Path("a.csv")) != digest(Path("b.csv"))
+    with pytest.raises(TypeError, match="expected what JSON can hold, or a path, got object"):
+        canonical(object())
 
 
 def test_seeds_differ_by_identity_and_by_the_seed_of_all():

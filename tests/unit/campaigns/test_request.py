@@ -10,6 +10,7 @@ pytest.importorskip("msgspec")
 pytest.importorskip("pyarrow")
 
 from rheoclast.campaigns import read_campaign
+from rheoclast.campaigns.identity import canonical
 
 BASE = {
     "viscosity": "1e-3",
@@ -171,12 +172,15 @@ def test_histories_and_flows_exclude_each_other(tmp_path, changed, message):
         ("{ files = [], density = 1e3 }", "histories.files: expected list of length >= 1"),
         (
             '{ files = ["nothing.csv"], density = 1e3 }',
-            r"histories: files\[0\]: path: nothing\.csv cannot be read \(No such file .*; check the current folder",
+            r"histories: files\[0\]: path: .*nothing\.csv cannot be read \(No such file .*; check its name and folder",
         ),
         (
             '{ files = [{ path = "a.csv", row = 3 }], density = 1e3 }',
             r"histories\.files\[0\]: unknown key row",
         ),
+        ("{ files = [3], density = 1e3 }", r"histories\.files\[0\]: expected .*, got int"),
+        ("{ files = [{ path = 3 }], density = 1e3 }", r"histories\.files\[0\]\.path: .*int"),
+        ("{ files = [{ order = 'row' }], density = 1e3 }", r"histories\.files\[0\]: missing key path"),
     ],
 )
 def test_refusals_of_histories(tmp_path, table, message):
@@ -184,22 +188,47 @@ def test_refusals_of_histories(tmp_path, table, message):
         campaign(tmp_path, **{**HISTORIES, "histories": table})
 
 
-def test_files_are_read_with_the_campaign(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    rc.write_histories("paths.csv", rc.gaussian_histories(3, 0.01, 1.0, 1e-6, seed=1))
+def test_files_are_read_with_the_campaign(tmp_path):
+    rc.write_histories(tmp_path / "paths.csv", rc.gaussian_histories(3, 0.01, 1.0, 1e-6, seed=1))
     table = '{{ files = ["paths.csv"], density = 1e3, {} }}'
     first = campaign(tmp_path, **{**HISTORIES, "histories": table.format("number = 3")})
     with pytest.raises(ValueError, match=r"histories: number: expected at most 3, the histories in the files, got 4"):
         campaign(tmp_path, **{**HISTORIES, "histories": table.format("number = 4")})
     with pytest.raises(ValueError, match=r"histories: duration: expected at most .* Kolmogorov times, .* got 1000"):
         campaign(tmp_path, **{**HISTORIES, "histories": table.format("duration = 1000")})
-    rc.write_histories("paths.csv", rc.gaussian_histories(3, 0.01, 1.0, 1e-6, seed=2), overwrite=True)
+    rc.write_histories(tmp_path / "paths.csv", rc.gaussian_histories(3, 0.01, 1.0, 1e-6, seed=2), overwrite=True)
     changed = campaign(tmp_path, **{**HISTORIES, "histories": table.format("number = 3")})
     assert first.tasks()[0].digest != changed.tasks()[0].digest
     assert first.tasks()[0].history_seed == changed.tasks()[0].history_seed
     (tmp_path / "paths.csv").write_text("1, 2\n", encoding="utf-8")
-    with pytest.raises(ValueError, match=r"campaign\.toml: histories: paths\.csv"):
+    with pytest.raises(ValueError, match=r"campaign\.toml: histories: .*paths\.csv"):
         campaign(tmp_path, **{**HISTORIES, "histories": table.format("number = 3")})
+
+
+@pytest.mark.parametrize("entry", ['"data/paths.csv"', '{ path = "data/paths.csv", tolerance = 0.1 }'])
+def test_files_lie_where_the_campaign_says_from_its_folder_on(tmp_path, monkeypatch, entry):
+    """Moved together they are the same campaign; tasks know the place, from whatever folder they are performed."""
+    table = f"{{ files = [{entry}], density = 1e3 }}"
+    found = []
+    for name in ("here", "there"):
+        (tmp_path / name / "data").mkdir(parents=True)
+        rc.write_histories(tmp_path / name / "data" / "paths.csv", rc.gaussian_histories(2, 0.01, 1.0, 1e-6, seed=1))
+        monkeypatch.chdir(tmp_path / name)
+        found.append(campaign(Path(), **{**HISTORIES, "histories": table}))
+        monkeypatch.chdir(tmp_path)
+    here, there = (each.tasks()[0] for each in found)
+    assert here.digest == there.digest
+    assert canonical(found[0]) == canonical(found[1])
+    assert [file.path for file in here.conditions.histories.files] == [tmp_path / "here" / "data" / "paths.csv"]
+    assert len(there.conditions.histories.drawn(1)) == 2
+
+
+@pytest.mark.parametrize("event", ['"first failure"', '"history"'])
+def test_a_bound_on_the_rate_needs_a_flow_that_is_raised(tmp_path, event):
+    changed = {"event": event, "up_to": "1.0"}
+    with pytest.raises(ValueError, match=f"up_to: only event 'breakup' raises the flow, got {event[1:-1]!r}; remove"):
+        campaign(tmp_path, **({**HISTORIES, **changed} if "history" in event else changed))
+    assert campaign(tmp_path, event='"breakup"', up_to="1.0").up_to == 1
 
 
 @pytest.mark.parametrize(
@@ -244,6 +273,16 @@ def test_files_are_read_with_the_campaign(tmp_path, monkeypatch):
             {"families": '[{ name = "bent-chain", bend = "a" }]'},
             r"families\[0\]: bend: expected float \| list, got str",
         ),
+        (
+            {"families": '[{ name = "thinned-fcc-ball", coordination = [] }]'},
+            r"families\[0\]: coordination: expected list of length >= 1",
+        ),
+        ({"families": '[{ name = "cluster-cluster", prefactor = [] }]'}, r"families\[0\]: prefactor: expected list of"),
+        (
+            {"families": '[{ name = "lattice-block", lattice = "fcc", counts = [] }]'},
+            r"families\[0\]: counts: expected",
+        ),
+        ({"families": '[{ name = "ring", count = [] }]'}, r"families\[0\]: count: expected list of length >= 1"),
         ({"viscosity": ""}, "Invalid value"),
     ],
 )
@@ -256,6 +295,12 @@ def test_refusals_name_file_and_key(tmp_path, changed, message):
 def test_units_that_are_probably_wrong(tmp_path, changed, message):
     with pytest.warns(rc.UnitWarning, match=message):
         campaign(tmp_path, **changed)
+
+
+def test_units_of_a_family_s_own_radius(tmp_path):
+    with pytest.warns(rc.UnitWarning, match="radii up to 500 m exceed 1 mm"):
+        campaign(tmp_path, families='[{ name = "ring" }, { name = "straight-chain", radius = [1e-6, 500.0] }]')
+    campaign(tmp_path, viscosity="1.0", families='[{ name = "straight-chain", radius = 500.0 }]')
 
 
 def test_missing_file(tmp_path):

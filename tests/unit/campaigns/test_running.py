@@ -1,5 +1,9 @@
 """Campaigns from beginning to end, and the command that runs them."""
 
+import json
+import re
+from itertools import product
+
 import pytest
 
 import rheoclast as rc
@@ -101,6 +105,40 @@ def test_summary_counts_and_names_failures_rates_and_files(file, tmp_path, capsy
     assert f"{min(rate):.3g}" in shown
 
 
+MANY_KINDS = """
+viscosity = 1e-3
+radius = 1e-6
+sizes = [12, 14]
+flows = ["shear", "uniaxial"]
+orientations = { number = 5 }
+materials = ["polystyrene", { name = "weak", stiffness = [1, 1, 1, 1], pull_off = 2e-10 }]
+hydrodynamics = { model = "free-draining" }
+families = [{ name = "straight-chain" }, { name = "thinned-fcc-ball", count = 13, coordination = [3.0, 4] }]
+"""
+
+
+@pytest.mark.usefixtures("alone")
+def test_summary_keeps_apart_what_is_not_alike(file, tmp_path, capsys):
+    """A table for every family, material and flow; a row for every size or other parameter."""
+    file.write_text(MANY_KINDS, encoding="utf-8")
+    with pytest.raises(SystemExit):
+        main(["survey", str(file)])
+    rows = pq.read_table(tmp_path / "campaign" / "events.parquet").to_pylist()
+    shown = capsys.readouterr().out
+    tables = {each.splitlines()[0].rpartition("\n")[2]: each for each in re.split(r"\n(?=\S+, \w+, \w+: )", shown)[1:]}
+    assert len(tables) == 8
+    for title, table in tables.items():
+        family, material, flow = title.partition(":")[0].split(", ")
+        name = {"straight-chain": "count", "thinned-fcc-ball": "coordination"}[family]
+        lines = [[cell.strip() for cell in line[1:-1].split("│")] for line in table.splitlines() if line[0] in "│┃"]
+        assert re.split(r"\s*┃\s*", "┃".join(lines[0]))[0] == name
+        for line, value in zip(lines[1:], {"count": (12, 14), "coordination": (3, 4)}[name], strict=True):
+            own = [row for row in rows if (row["family"], row["material"], row["flow"]) == (family, material, flow)]
+            rates = sorted(r["initiation_rate_per_s"] for r in own if json.loads(r["parameters"])[name] == value)
+            assert len(rates) == 5
+            assert line == [str(value), "5", *(f"{rate:.3g}" for rate in (rates[0], rates[2], rates[4]))]
+
+
 @pytest.mark.usefixtures("alone")
 def test_summary_of_histories_has_the_breakage_rate_of_every_family_and_dissipation(file, tmp_path, capsys):
     file.write_text(IN_TURBULENCE, encoding="utf-8")
@@ -112,17 +150,18 @@ def test_summary_of_histories_has_the_breakage_rate_of_every_family_and_dissipat
     lines = iter([line[1:-1].split("│") for line in shown.splitlines() if line.startswith("│")])
     for family in ("cluster-cluster", "straight-chain"):
         assert f"{family}, weak: breakage rate by dissipation" in shown
-        for dissipation in (1e-3, 3.0, 1e9):
-            own = [row for row in rows if (row["family"], row["dissipation_m2_per_s3"]) == (family, dissipation)]
+        for count, dissipation in product((12, 13), (1e-3, 3.0, 1e9)):
+            of_family = [row for row in rows if row["family"] == family and f'"count":{count},' in row["parameters"]]
+            own = [row for row in of_family if row["dissipation_m2_per_s3"] == dissipation]
             lasting = [row for row in own if not row["overloaded"]]
             shown_row = [each.strip() for each in next(lines)]
-            assert shown_row[:2] == [f"{dissipation:.3g}", str(len(own) - len(lasting))]
+            assert shown_row[:3] == [str(count), f"{dissipation:.3g}", str(len(own) - len(lasting))]
             if not lasting:
-                assert shown_row[2:] == ["0", "", ""]
+                assert shown_row[3:] == ["0", "", ""]
                 continue
             rate = rc.breakage_rate(rc.WaitingTimes(*([row[name] for row in lasting] for name in ("time_s", "failed"))))
             interval = " to ".join(f"{bound:.3g}" for bound in rate.interval)
-            assert shown_row[2:] == [str(rate.failures), f"{rate.rate:.3g}", interval]
+            assert shown_row[3:] == [str(rate.failures), f"{rate.rate:.3g}", interval]
     assert next(lines, None) is None
 
 
@@ -174,6 +213,33 @@ def test_refusals_are_one_line(file, capsys):
     assert told.count("\n") == 1
     assert "flows: expected one of shear, uniaxial, biaxial, planar, got 'swirl'" in told
     assert not file.with_suffix("").exists()
+
+
+@pytest.mark.usefixtures("alone")
+def test_a_spoilt_file_is_no_obstacle(file, tmp_path):
+    campaign = read_campaign(file)
+    first = survey(campaign, tmp_path / "out").events.read_bytes()
+    next((tmp_path / "out" / "tasks").iterdir()).write_bytes(b"")
+    assert survey(campaign, tmp_path / "out").events.read_bytes() == first
+
+
+@pytest.mark.usefixtures("alone")
+def test_a_second_run_in_the_same_folder_is_refused(file, tmp_path):
+    campaign = read_campaign(file)
+
+    def again(done, number):
+        survey(campaign, tmp_path / "out")
+
+    with pytest.raises(BlockingIOError, match="another process works in this folder"):
+        survey(campaign, tmp_path / "out", progress=again)
+    survey(campaign, tmp_path / "out")
+
+
+@pytest.mark.usefixtures("alone")
+def test_tables_have_two_names(file, tmp_path):
+    results = survey(read_campaign(file), tmp_path / "out")
+    with pytest.raises(ValueError, match="name: expected one of events, aggregates, got 'event'"):
+        results.table("event")
 
 
 def test_workers_and_scheduler_exclude_each_other(file, tmp_path):

@@ -1,5 +1,7 @@
 """The folder of a campaign."""
 
+import os
+
 import numpy as np
 import pytest
 
@@ -31,20 +33,37 @@ TASKS = CAMPAIGN.tasks()
 @pytest.fixture
 def store(tmp_path):
     store = Store(tmp_path / "out")
-    store.claim(CAMPAIGN)
-    return store
+    with store.claimed(CAMPAIGN):
+        yield store
 
 
-def test_a_folder_belongs_to_one_campaign(store):
-    store.claim(CAMPAIGN)
-    with pytest.raises(FileExistsError, match=r"belongs to another campaign .* choose another folder"):
-        store.claim(msgspec.structs.replace(CAMPAIGN, seed=3))
+def test_a_folder_belongs_to_one_campaign(tmp_path):
+    for _ in range(2):
+        with Store(tmp_path / "out").claimed(CAMPAIGN):
+            pass
+    other = msgspec.structs.replace(CAMPAIGN, seed=3)
+    with (
+        pytest.raises(FileExistsError, match=r"belongs to another campaign .* choose another folder"),
+        Store(tmp_path / "out").claimed(other),
+    ):
+        pass
+
+
+def test_one_process_at_a_time(store):
+    with (
+        pytest.raises(BlockingIOError, match=r"out: another process works in this folder; wait until it ends, or"),
+        Store(store.folder).claimed(CAMPAIGN),
+    ):
+        pass
 
 
 def test_a_folder_with_other_things_is_refused(tmp_path):
     (tmp_path / "thesis.tex").touch()
-    with pytest.raises(FileExistsError, match=r"expected a new or empty folder, got one with thesis\.tex"):
-        Store(tmp_path).claim(CAMPAIGN)
+    with (
+        pytest.raises(FileExistsError, match=r"expected a new or empty folder, got one with thesis\.tex"),
+        Store(tmp_path).claimed(CAMPAIGN),
+    ):
+        pass
     assert [path.name for path in tmp_path.iterdir()] == ["thesis.tex"]
 
 
@@ -59,6 +78,31 @@ def test_a_task_is_there_when_it_is_whole(store, monkeypatch):
     assert len(list((store.folder / "tasks").iterdir())) == 1
     store.forget(TASKS[0])
     assert not store.has(TASKS[0])
+
+
+@pytest.mark.parametrize("content", [b"", b"PAR1", bytes(4000)])
+def test_a_file_that_cannot_be_read_is_done_again(store, content):
+    store.keep(TASKS[0], failed(TASKS[0], "no luck"))
+    (path,) = (store.folder / "tasks").iterdir()
+    path.write_bytes(content)
+    assert not store.has(TASKS[0])
+    store.keep(TASKS[0], failed(TASKS[0], "no luck"))
+    assert store.failed([TASKS[0]]) == [TASKS[0]]
+
+
+def test_two_that_write_the_same_task_do_not_meet(store, monkeypatch):
+    """While one is about to rename its file, another writes the whole of it."""
+    replace, results = os.replace, perform(TASKS[0])
+
+    def second_first(*names):
+        monkeypatch.setattr("os.replace", replace)
+        store.keep(TASKS[0], results)
+        replace(*names)
+
+    monkeypatch.setattr("os.replace", second_first)
+    store.keep(TASKS[0], results)
+    assert store.has(TASKS[0])
+    assert len(list((store.folder / "tasks").iterdir())) == 1
 
 
 @pytest.mark.parametrize("together", [1, 10, 1000])

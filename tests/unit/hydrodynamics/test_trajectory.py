@@ -156,6 +156,17 @@ class TestFlows:
         np.testing.assert_allclose(path.rotation(path.times), same.rotation(path.times), atol=1e-10)
         np.testing.assert_allclose(path.strain_rate(instants(path)), same.strain_rate(instants(path)), atol=1e-10)
 
+    def test_flow_where_gradients_nearly_cancel(self, response):
+        """What is left half-way is as small as its rounding, which has a trace."""
+        gradient = GRADIENT / 3
+        history = GradientHistory(np.array([0.0, 1.0]), np.array([gradient, -gradient * (1 - 1e-12)]))
+        path = trajectory(response, history)
+        times = 0.5 + 1e-13 * np.arange(-20, 20)
+        left = path.gradient(times)
+        assert (np.abs(np.trace(left, axis1=1, axis2=2)) > 1e-9 * np.abs(left).max(axis=(1, 2))).any()
+        for time in times:
+            np.testing.assert_allclose(path.flow(time).gradient, path.gradient(time), atol=1e-15)
+
     def test_part_of_the_samples(self, response):
         flow = changing(40)
         whole, part = trajectory(response, flow), trajectory(response, flow, 2.345)
@@ -226,6 +237,14 @@ class TestRefusals:
     def test_gradients_that_are_no_numbers(self, response):
         with pytest.raises(ValueError, match=r"^gradient\[1, 2, 0\]: expected a finite number, got nan$"):
             trajectory(response, Samples([0.0, 1.0], [GRADIENT, np.where(GRADIENT == -1.3, np.nan, GRADIENT)]))
+
+    def test_gradients_with_a_trace(self, response):
+        gradients = np.tile(GRADIENT, (3, 1, 1))
+        gradients[1, 0, 0] += 1e-3
+        with pytest.raises(
+            ValueError, match=r"gradient: expected zero trace .*, got 0\.001 1/s at 2 s; subtract a third"
+        ):
+            trajectory(response, Samples([1.0, 2.0, 3.0], gradients))
 
     def test_gradients_that_bend_between_samples(self, response):
         flow = Wavy([0.0, 1.0, 3.0], [GRADIENT] * 3)

@@ -34,6 +34,15 @@ def assert_same(found, expected):
         np.testing.assert_allclose(one.gradients, other.gradients, rtol=0, atol=1e-12)
 
 
+def forget_units(path):
+    """Remove what an HDF5 file says of its units."""
+    import h5py
+
+    with h5py.File(path, "r+") as opened:
+        for dataset in opened.values():
+            del dataset.attrs["unit"]
+
+
 def read_one(path, **more):
     (history,) = read_histories(path, **more)
     return history
@@ -72,6 +81,8 @@ class TestEveryFormat:
         path = tmp_path / f"paths{SUFFIXES[name]}"
         (slow,) = histories(1)
         write_histories(path, slow)
+        if name == "hdf5":
+            forget_units(path)
         fast = read_one(path, time_unit="dimensionless", gradient_unit="1/ms")
         np.testing.assert_allclose(fast.gradients, 1e3 * slow.gradients)
         np.testing.assert_array_equal(fast.times, slow.times)
@@ -184,6 +195,65 @@ def test_the_unit_of_a_dataset_must_agree(tmp_path):
     write_histories(tmp_path / "path.h5", histories(1))
     with pytest.raises(FileFormatError, match="expected times in ms, got a column in s"):
         read_histories(tmp_path / "path.h5", time_unit="ms")
+    message = "expected gradients in 1/ms, got a column in 1/s by its name; pass gradient_unit='1/s'"
+    with pytest.raises(FileFormatError, match=message):
+        read_histories(tmp_path / "path.h5", gradient_unit="1/ms")
+
+
+@needs_h5py
+def test_the_unit_of_a_dataset_may_be_bytes_and_unknown_ones_are_passed_over(tmp_path):
+    import h5py
+
+    path = tmp_path / "path.h5"
+    write_histories(path, histories(1))
+    for unit, refused in ((np.bytes_(b"ms^-1"), True), ("per fortnight", False)):
+        with h5py.File(path, "r+") as opened:
+            opened["gradient"].attrs["unit"] = unit
+        if refused:
+            with pytest.raises(FileFormatError, match="expected gradients in 1/s, got a column in 1/ms"):
+                read_histories(path)
+        else:
+            assert_same(read_histories(path), histories(1))
+
+
+NAMES = {
+    "derivatives": ["dudx", "dudy", "dudz", "dvdx", "dvdy", "dvdz", "dwdx", "dwdy", "dwdz"],
+    "entries": ["a11", "a12", "a13", "a21", "a22", "a23", "a31", "a32", "a33"],
+}
+
+
+@pytest.mark.parametrize("names", NAMES.values(), ids=NAMES)
+@pytest.mark.parametrize("behind", [" (1/ms)", " [1/ms]", "_1/ms", "(ms^-1)", " (ms-1)", " [ms⁻¹]"])
+def test_a_unit_behind_the_entries_must_agree(names, behind, file):
+    path = file("path.csv", ",".join(["t", *(name + behind for name in names)]) + f"\n0,{ROW}\n1,{ROW}\n")
+    np.testing.assert_allclose(read_one(path, gradient_unit="1/ms").gradients[0], 1e3 * GRADIENT, rtol=1e-15)
+    np.testing.assert_allclose(read_one(path, gradient_unit=1000).gradients[0], 1e3 * GRADIENT, rtol=1e-15)
+    np.testing.assert_allclose(read_one(path, gradient_unit="dimensionless").gradients[0], GRADIENT, rtol=1e-15)
+    with pytest.raises(FileFormatError, match="expected gradients in 1/s, got a column in 1/ms by its name; pass grad"):
+        read_histories(path)
+
+
+@pytest.mark.parametrize(
+    ("units", "message"),
+    [
+        (["1/day"] * 9, "line 1: expected one of 1/s, .* behind the entries, got '1/day'"),
+        (["1/s"] * 8 + ["1/ms"], r"line 1: expected the same unit behind all entries, got 'a11 \(1/s\), a12"),
+    ],
+)
+def test_units_behind_the_entries_that_mean_nothing(units, message, file):
+    names = [f"{name} ({unit})" for name, unit in zip(NAMES["entries"], units, strict=True)]
+    with pytest.raises(FileFormatError, match=message):
+        read_histories(file("path.csv", ",".join(["t", *names]) + f"\n0,{ROW}\n1,{ROW}\n"))
+
+
+@pytest.mark.parametrize("cell", ["nan", "", "x", " NaN", "-inf"])
+@pytest.mark.parametrize("above", ["", f"t,{','.join(NAMES['entries'])}\n", f"t,{','.join(NAMES['entries'])}\n\n"])
+@pytest.mark.parametrize("below", ["", "# here it begins\n"])
+def test_a_first_row_without_its_time_is_not_taken_for_names(cell, above, below, file):
+    path = file("path.csv", f"{above}{cell},{ROW}\n{below}0,{ROW}\n1,{ROW}\n")
+    line = above.count("\n") + 1
+    with pytest.raises(FileFormatError, match=f"line {line}: expected names of columns or a row of numbers, got .*1,2"):
+        read_histories(path)
 
 
 @pytest.mark.parametrize(

@@ -65,3 +65,8 @@ def test_refused(tmp_path):
     with pytest.raises(FileExistsError, match="exists already"):
         write_kernel(tmp_path / "kernel.csv", TABLE)
     write_kernel(tmp_path / "kernel.csv", TABLE, overwrite=True)
+
+
+def test_replacing_a_file_is_asked_for_by_name(tmp_path):
+    with pytest.raises(TypeError, match="positional argument"):
+        write_kernel(tmp_path / "kernel.csv", TABLE, True)

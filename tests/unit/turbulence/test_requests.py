@@ -43,6 +43,8 @@ def test_a_history_is_in_si_units():
         ({"dissipation": -1.0}, "dissipation: expected a positive number, got -1"),
         ({"kinematic_viscosity": np.nan}, "kinematic_viscosity: expected a finite number, got nan"),
         ({"seed": -1}, "seed: expected an integer of at least 0, got -1"),
+        ({"duration": 1e9, "step": 1.0}, r"step, duration, count: expected at most 1e\+08 instants in all, got 2e\+09"),
+        ({"step": 1e-320}, r"step, duration, count: expected at most 1e\+08 instants in all, got inf; make the histor"),
         ({"step": 0.0}, "step: expected a positive number, got 0"),
     ],
 )
