@@ -171,7 +171,7 @@ def trajectory(
     tolerance = _checks.positive("tolerance", tolerance)
     if not TOLERANCES[0] <= tolerance <= TOLERANCES[1]:
         raise ValueError(f"tolerance: expected {TOLERANCES[0]:g} to {TOLERANCES[1]:g}, got {tolerance:g}")
-    initial = Rotation.from_matrix(np.eye(3) if start is None else _checks.rotation_matrix("start", start))
+    initial = np.eye(3) if start is None else _checks.rotation_matrix("start", start)
     knots = _knots(flow, duration)
     span = knots[-1] - knots[0]
     fractions, strains = (knots - knots[0]) / span, span * _samples(flow, knots)
@@ -180,10 +180,15 @@ def trajectory(
     from rheoclast.hydrodynamics.turning_kernel import integrate
 
     coupling = response.rotation_coupling
-    passed, coefficients = integrate(fractions, strains, _turning(coupling), initial.as_quat(), tolerance)
+    passed, coefficients = integrate(fractions, strains, _turning(coupling), _quaternion(initial), tolerance)
     times = np.append(knots[0] + span * passed, knots[-1])
     by_power = np.ascontiguousarray(coefficients.transpose(1, 0, 2))
     return Trajectory(_checks.frozen(times), _checks.frozen(by_power), flow, coupling)
+
+
+def _quaternion(rotation: FloatArray) -> FloatArray:
+    """Quaternion (4,) of a rotation matrix, in SciPy's order."""
+    return Rotation.from_matrix(rotation.copy()).as_quat()  # older SciPy refuses arrays that are read-only
 
 
 def _turning(coupling: FloatArray) -> FloatArray:
