@@ -3,7 +3,7 @@
 Clusters of 200 spheres by Stokesian dynamics of order 2, the first failure in 1000 orientations of each with all that
 is kept of it. The time to start the workers is measured by itself, as it does not grow with the campaign.
 
-python benchmarks/survey.py [--count 50]
+python benchmarks/survey.py [--count 400]
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def seconds(count: int, workers: int) -> tuple[float, float]:
 def main() -> None:
     """Run and print."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=50)
+    parser.add_argument("--count", type=int, default=400)
     count = parser.parse_args().count
     table = Table("workers", "start, s", "aggregates per second", f"{WHOLE} aggregates, min", "against one")
     single = 0.0
