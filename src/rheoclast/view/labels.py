@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 INK, FAINT_INK = "#24282d", "#6d737a"
 SMALL, TINY = 9, 8  # points
 EXTENDED, SHORTENED = "#c9370f", "#1c5fb4"
+MOST_ARROWS = 300
 END_ON = 0.2  # projected length of a unit vector that counts as pointing at the viewer
 
 
@@ -111,6 +112,37 @@ def draw_flow(figure: Figure, box: Box, view: FloatArray, strain_rate: FloatArra
         for side in (1, -1):
             _arrow(axes, side * start, side * end, colour)
     axes.text(0, top + 0.25, "flow", ha="center", va="bottom", size=TINY, color=FAINT_INK)
+
+
+def draw_forces(axes: Axes, points: FloatArray, forces: FloatArray, reach: float, unit: str | None) -> None:
+    """Forces (N, 3) as arrows from points (N, 3) in pixels, the longest of length `reach`, and what that stands for."""
+    size = np.linalg.norm(forces, axis=1)
+    largest = float(size.max())
+    if not largest > 0:
+        return
+    shown = np.argsort(-size, kind="stable")[:MOST_ARROWS]
+    x, y, u, v = np.concatenate([points[shown, :2], reach / largest * forces[shown, :2]], axis=1).T
+    pixel = axes.figure.dpi / 72
+    axes.quiver(
+        x,
+        y,
+        u,
+        v,
+        angles="xy",
+        scale_units="xy",
+        scale=1,
+        units="xy",
+        width=1.6 * pixel,
+        headwidth=4,
+        headlength=4.5,
+        color=INK,
+        edgecolor="white",
+        linewidth=0.5,
+    )
+    note = f"arrows: force of the fluid, longest {quoted(largest, unit)}"
+    if len(size) > MOST_ARROWS:
+        note += f" ({MOST_ARROWS} largest of {len(size)})"
+    axes.text(0.01, 0.99, note, transform=axes.transAxes, size=TINY, color=FAINT_INK, va="top")
 
 
 def mark_contact(axes: Axes, image: Image, point: FloatArray, radius: float, text: str, visible: bool = True) -> None:

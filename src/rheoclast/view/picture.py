@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from os import PathLike
 from typing import IO, TYPE_CHECKING
 
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
 
 SMALLEST_SIZE = (4.5, 2.5)  # inches
 LABEL_ROOM = 0.3  # inches
+ARROW = 3.5  # radii: length of the longest arrow
 COLLAR_REACH = 0.9  # of the smaller radius
 RING_RADIUS = 0.55  # of the smaller radius
 
@@ -44,6 +46,7 @@ def draw(
     *,
     quantity: str = "tension",
     unit: str | None = "N",
+    forces: ArrayLike | None = None,
     flow: LinearFlow | None = None,
     critical: int | None = None,
     view_direction: ArrayLike | None = None,
@@ -64,6 +67,9 @@ def draw(
     quantity, unit
         What the values are, for the colour bar. A decimal prefix is chosen: give "N" and it may show nN. None for
         dimensionless values.
+    forces
+        (N, 3) forces of the fluid on the spheres, such as `SphereLoads.force`, shown as arrows from the centres, in N
+        or, if `unit` is None, without a unit. Of more than 300 the largest are shown.
     flow
         Linear flow whose principal strain rates are shown as arrows, seen from the same side as the aggregate.
     critical
@@ -93,6 +99,7 @@ def draw(
     from matplotlib.figure import Figure
 
     values = None if contact_values is None else _values(contact_values, len(aggregate.pairs))
+    pushes = None if forces is None else _checks.real_array("forces", forces, (len(aggregate), 3))
     if critical is not None:
         critical = _contact_index(critical, len(aggregate.pairs))
     refuse_small(size, SMALLEST_SIZE)
@@ -101,12 +108,18 @@ def draw(
     layout = _layout(aggregate, axes, size, dots_per_inch, critical is not None, title is not None)
     shown = np.zeros(len(aggregate.pairs)) if values is None else values
     scale = ColourScale(shown)
-    rendering, points = _rendered(aggregate, axes, layout, scale(shown))
+    pixels = _pixels(aggregate, axes, layout)
+    points = pixels(aggregate.contact_points)
+    rendering = _rendered(aggregate, layout, pixels(aggregate.spheres.centers), points, scale(shown))
 
     figure = Figure(figsize=(layout.width, layout.height), dpi=layout.dots_per_inch, facecolor="white")
     picture = image_axes(figure, layout.picture_box, rendering.image)
     if title is not None:
         draw_title(figure, layout, title, labels.INK)
+    if pushes is not None:
+        reach = ARROW * layout.scale * float(aggregate.spheres.radii.mean())
+        named = None if unit is None else "N"
+        labels.draw_forces(picture, pixels(aggregate.spheres.centers), pushes @ axes.T, reach, named)
     labels.draw_scale_bar(figure, layout.scale_bar_box, layout.scale, length_unit)
     if values is not None:
         labels.draw_colour_bar(figure, layout.colour_bar_box, scale, quantity, unit)
@@ -158,16 +171,18 @@ def _layout(
     return Layout.rounded(size[0], header, picture, FOOTER, inches_per_metre, dots_per_inch)
 
 
-def _rendered(
-    aggregate: Aggregate, axes: FloatArray, layout: Layout, colours: FloatArray
-) -> tuple[Rendering, FloatArray]:
-    """The image, and the contact points (C, 3) in its pixels."""
+def _pixels(aggregate: Aggregate, axes: FloatArray, layout: Layout) -> Callable[[FloatArray], FloatArray]:
+    """Where points (P, 3) of the aggregate are in the picture, (P, 3) in pixels, the last towards the viewer."""
     low, high = extent(aggregate.spheres.centers @ axes.T, aggregate.spheres.radii)
     lower_middle = np.array([(low[0] + high[0]) / 2, low[1], float(axes[2] @ aggregate.spheres.center_of_mass)])
-    width, height = layout.pixels
-    shift = np.array([width / 2, MARGIN * layout.dots_per_inch, 0.0])
-    centers = (aggregate.spheres.centers @ axes.T - lower_middle) * layout.scale + shift
-    points = (aggregate.contact_points @ axes.T - lower_middle) * layout.scale + shift
+    shift = np.array([layout.pixels[0] / 2, MARGIN * layout.dots_per_inch, 0.0])
+    return lambda points: (points @ axes.T - lower_middle) * layout.scale + shift
+
+
+def _rendered(
+    aggregate: Aggregate, layout: Layout, centers: FloatArray, points: FloatArray, colours: FloatArray
+) -> Rendering:
+    """The image, from centres (N, 3) and contact points (C, 3) in its pixels."""
     radii = aggregate.spheres.radii * layout.scale
     reaches = COLLAR_REACH * radii[aggregate.pairs].min(axis=1)
-    return render(centers, radii, Collars(aggregate.pairs, points, reaches, colours), width, height), points
+    return render(centers, radii, Collars(aggregate.pairs, points, reaches, colours), *layout.pixels)

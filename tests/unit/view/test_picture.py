@@ -256,3 +256,42 @@ def test_wrong_input_is_refused_in_one_sentence(arguments, message):
 def test_critical_contact_of_a_single_sphere_is_refused():
     with pytest.raises(ValueError, match=r"^critical: expected None, as there are no contacts, got 0$"):
         draw(touching([[0, 0, 0]]), critical=0)
+
+
+class TestForces:
+    """Arrows of the fluid's forces."""
+
+    def arrows(self, figure):
+        (quiver,) = (each for axes in figure.axes for each in axes.collections if type(each).__name__ == "Quiver")
+        return quiver
+
+    def test_arrows_stand_at_the_centres_and_are_proportional_to_the_forces(self):
+        """Seen along z: x to the right, y up, the longest 3.5 radii."""
+        forces = 1e-9 * np.array([[1.0, 0, 0], [0, 2, 0], [0, 0, 3], [-1, 1, 0], [0, 0, 0], [0.5, 0, 0]])
+        quiver = self.arrows(draw(BENT, forces=forces, view_direction=(0, 0, 1)))
+        order = np.argsort(-np.linalg.norm(forces, axis=1), kind="stable")
+        drawn = np.stack([quiver.U, quiver.V], axis=1)
+        centers = BENT.spheres.centers[order, :2]
+        pixels_per_metre = np.ptp(quiver.XY[:, 0]) / np.ptp(centers[:, 0])
+        np.testing.assert_allclose(drawn, forces[order, :2] * 3.5 * RADIUS * pixels_per_metre / 3e-9, atol=1e-9)
+        np.testing.assert_allclose(quiver.XY - quiver.XY[0], (centers - centers[0]) * pixels_per_metre, atol=1e-6)
+
+    def test_what_the_longest_arrow_stands_for(self):
+        assert "arrows: force of the fluid, longest 3 nN" in texts(
+            draw(BENT, forces=np.full((6, 3), 3e-9 / np.sqrt(3)))
+        )
+
+    def test_only_the_largest_of_many(self):
+        aggregate = grown(320)
+        forces = np.random.default_rng(1).normal(size=(320, 3))
+        figure = draw(aggregate, forces=forces, unit=None)
+        assert len(self.arrows(figure).U) == 300
+        assert any("300 largest of 320" in text for text in texts(figure))
+
+    def test_no_forces_no_arrows(self):
+        figure = draw(BENT, forces=np.zeros((6, 3)))
+        assert not any("arrows" in text for text in texts(figure))
+
+    def test_wrong_number(self):
+        with pytest.raises(ValueError, match=r"^forces: expected shape \(6, 3\), got \(5, 3\)"):
+            draw(BENT, forces=np.zeros((5, 3)))
