@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -14,8 +14,7 @@ from rheoclast._checks import FloatArray, IntArray
 from rheoclast.breakup.contact_response import contact_response
 from rheoclast.breakup.crack import Rule, break_up
 from rheoclast.breakup.event import Breakup
-from rheoclast.breakup.initiation import worst_initiation
-from rheoclast.breakup.orbit import orbit_initiation
+from rheoclast.breakup.orientation import SOUGHT
 from rheoclast.flows import LinearFlow
 from rheoclast.hydrodynamics.response import RigidResponse, rigid_response
 from rheoclast.mechanics.bonds import Bonds
@@ -150,8 +149,9 @@ def cascade(
         If the orientation is not known, or as `break_up`.
     """
     _checks.instance("response", response, RigidResponse, "for instance rigid_response(aggregate.spheres, ...)")
-    if orientation not in ORIENTED:
-        raise ValueError(f"orientation: expected one of {', '.join(map(repr, ORIENTED))}, got {orientation!r}")
+    known = ("given", *SOUGHT)
+    if orientation not in known:
+        raise ValueError(f"orientation: expected one of {', '.join(map(repr, known))}, got {orientation!r}")
     pieces: list[Piece] = []
     waiting = deque([_Waiting(None, 0, aggregate, np.arange(len(aggregate)), bonds, response)])
     settled = 0
@@ -159,7 +159,7 @@ def cascade(
         each = waiting.popleft()
         breakup = None
         if each.response is not None:
-            turned = ORIENTED[orientation](each, flow, criterion)
+            turned = _met(each, flow, orientation, criterion)
             breakup = break_up(each.aggregate, each.response, each.bonds, turned, rule, criterion, up_to=flow.rate)
         pieces.append(Piece(each.parent, each.generation, each.aggregate, each.spheres, breakup))
         if pieces[-1].holds:
@@ -201,23 +201,10 @@ def _response(fragment: Aggregate, before: _Waiting) -> RigidResponse | None:
     return rigid_response(fragment.spheres, before.response.model, before.response.viscosity)
 
 
-def _given(piece: _Waiting, flow: LinearFlow, criterion: Criterion) -> LinearFlow:
-    return flow
-
-
-def _worst(piece: _Waiting, flow: LinearFlow, criterion: Criterion) -> LinearFlow:
+def _met(piece: _Waiting, flow: LinearFlow, orientation: Orientation, criterion: Criterion) -> LinearFlow:
+    """The flow as a piece meets it."""
     assert piece.response is not None
-    return worst_initiation(contact_response(piece.aggregate, piece.response, piece.bonds), piece.bonds, flow).flow
-
-
-def _along_orbit(piece: _Waiting, flow: LinearFlow, criterion: Criterion) -> LinearFlow:
-    assert piece.response is not None
+    if orientation == "given":
+        return flow
     table = contact_response(piece.aggregate, piece.response, piece.bonds)
-    return orbit_initiation(piece.response, table, piece.bonds, flow, criterion=criterion).flow
-
-
-ORIENTED: Mapping[str, Callable[[_Waiting, LinearFlow, Criterion], LinearFlow]] = {
-    "given": _given,
-    "worst": _worst,
-    "orbit": _along_orbit,
-}
+    return SOUGHT[orientation](piece.response, table, piece.bonds, flow, criterion).flow

@@ -8,7 +8,7 @@ from msgspec import Meta, Struct
 
 from rheoclast import _checks
 from rheoclast.breakup.crack import Rule
-from rheoclast.campaigns.choices import COUNTING, CRITERIA, FLOWS, MODELS, one_of, refuse_repeated
+from rheoclast.campaigns.choices import COUNTING, one_of, refuse_repeated
 from rheoclast.campaigns.events import EVENTS
 from rheoclast.campaigns.histories import Histories
 from rheoclast.flows import LinearFlow
@@ -21,6 +21,7 @@ from rheoclast.mechanics.laws.law import ContactLaw
 from rheoclast.mechanics.laws.measured_pull_off import MeasuredPullOff
 from rheoclast.mechanics.laws.uniform import Uniform
 from rheoclast.mechanics.material import MATERIALS, Material
+from rheoclast.names import CRITERIA, FLOWS, MODELS
 
 Row = tuple[float, float, float]
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
 
@@ -11,17 +12,17 @@ import numpy as np
 
 from rheoclast import io, view
 from rheoclast.breakup.cascade import Cascade, cascade
-from rheoclast.breakup.contact_response import contact_response
+from rheoclast.breakup.contact_response import ContactResponse, contact_response
 from rheoclast.breakup.crack import Rule, break_up
 from rheoclast.breakup.event import Breakup, Failure
-from rheoclast.breakup.initiation import worst_initiation
-from rheoclast.breakup.orbit import orbit_initiation
+from rheoclast.breakup.orientation import SOUGHT
 from rheoclast.cli.analysis import Analysis
 from rheoclast.cli.results import finished_together
 from rheoclast.cli.tables import contact_table, sphere_table
 from rheoclast.cli.units import Units
 from rheoclast.flows import LinearFlow
 from rheoclast.hydrodynamics.response import RigidResponse
+from rheoclast.io.contact_table import write_pairs
 from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.criteria.criterion import Criterion
 from rheoclast.mechanics.criteria.load_ratios import load_ratios
@@ -73,7 +74,7 @@ class Setting:
 
     def broken(self, seed: int, up_to: float) -> Broken:
         """The breakup in the chosen orientation."""
-        flow = ORIENTED[self.orientation](self, seed)
+        flow = self._met(seed)
         flow = flow.scaled(self.flow.magnitude / flow.magnitude) if self.flow.magnitude else flow
         common = (self.aggregate, self.response, self.bonds, flow, self.rule, self.criterion)
         breakup = break_up(*common, up_to=up_to)
@@ -81,8 +82,19 @@ class Setting:
 
     def _intact(self, breakup: Breakup, flow: LinearFlow) -> Analysis:
         critical = flow.scaled(breakup.initiation_rate / flow.rate) if breakup.failures else flow
-        table = contact_response(self.aggregate, self.response, self.bonds)
-        return Analysis(self.aggregate, critical, self.bonds, self.response, table)
+        return Analysis(self.aggregate, critical, self.bonds, self.response, self._table)
+
+    @cached_property
+    def _table(self) -> ContactResponse:
+        return contact_response(self.aggregate, self.response, self.bonds)
+
+    def _met(self, seed: int) -> LinearFlow:
+        """The flow as the aggregate meets it."""
+        if self.orientation == "given":
+            return self.flow
+        if self.orientation == "random":
+            return self.flow.rotated(random_orientations(1, seed)[0])
+        return SOUGHT[self.orientation](self.response, self._table, self.bonds, self.flow, self.criterion).flow
 
     def cascade(self, flow: LinearFlow, progress: Progress) -> Cascade:
         """What becomes of the fragments at the rate of the flow; from a random orientation on, as that turned out."""
@@ -90,24 +102,6 @@ class Setting:
         if self.orientation == "random":
             return cascade(*common, flow, "given", self.rule, self.criterion, progress)
         return cascade(*common, self.flow, self.orientation, self.rule, self.criterion, progress)
-
-
-def _worst(setting: Setting, seed: int) -> LinearFlow:
-    table = contact_response(setting.aggregate, setting.response, setting.bonds)
-    return worst_initiation(table, setting.bonds, setting.flow).flow
-
-
-def _along_orbit(setting: Setting, seed: int) -> LinearFlow:
-    table = contact_response(setting.aggregate, setting.response, setting.bonds)
-    return orbit_initiation(setting.response, table, setting.bonds, setting.flow, criterion=setting.criterion).flow
-
-
-ORIENTED: Mapping[Orientation, Callable[[Setting, int], LinearFlow]] = {
-    "given": lambda setting, seed: setting.flow,
-    "worst": _worst,
-    "orbit": _along_orbit,
-    "random": lambda setting, seed: setting.flow.rotated(random_orientations(1, seed)[0]),
-}
 
 
 def breakup_summary(setting: Setting, broken: Broken, pieces: Cascade | None) -> dict[str, Any]:
@@ -184,8 +178,7 @@ def write_breakup(folder: Path, broken: Broken, pieces: Cascade | None, summary:
 def _write_fragment(folder: Path, name: str, fragment: Aggregate) -> None:
     """Spheres, and the contacts that are left: fewer than those that touch."""
     io.write(folder / f"{name}.dat", fragment)
-    i, j = fragment.pairs.T
-    io.write_table(folder / f"{name}_contacts.csv", {"i": i, "j": j})
+    write_pairs(folder / f"{name}_contacts.csv", fragment.pairs)
 
 
 def intact_table(broken: Broken) -> dict[str, Any]:

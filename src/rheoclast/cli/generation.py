@@ -16,6 +16,7 @@ from rheoclast.cli.presentation import show_shape
 from rheoclast.cli.tables import shape_summary
 from rheoclast.generation.families import FAMILIES, Family
 from rheoclast.generation.lattices import LATTICES
+from rheoclast.io.contact_table import write_pairs
 from rheoclast.io.files import writable
 from rheoclast.particles.aggregate import Aggregate
 
@@ -83,8 +84,7 @@ def _command(name: str, family: Family) -> Callable[..., None]:
         contacts = _contact_file(path, aggregate, overwrite)
         files.write(path, aggregate, format=file_format, overwrite=overwrite)
         if contacts is not None:
-            i, j = aggregate.pairs.T
-            files.write_table(contacts, {"i": i, "j": j}, overwrite)
+            write_pairs(contacts, aggregate.pairs, overwrite)
         show_shape(str(path), shape_summary(aggregate), "m")
         if path.suffix not in WRITTEN_ONLY:
             read_with = "" if contacts is None else f" --contacts {contacts}"

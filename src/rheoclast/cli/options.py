@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -10,22 +9,18 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from rheoclast.flows import LinearFlow, biaxial_extension, planar_extension, simple_shear, uniaxial_extension
+from rheoclast.flows import LinearFlow
 from rheoclast.hydrodynamics.exposed_area import ExposedArea
 from rheoclast.hydrodynamics.free_draining import FreeDraining
 from rheoclast.hydrodynamics.model import HydrodynamicModel
 from rheoclast.hydrodynamics.stokesian_dynamics import StokesianDynamics
-from rheoclast.mechanics.criteria.combined import Combined
 from rheoclast.mechanics.criteria.criterion import Criterion
-from rheoclast.mechanics.criteria.rolling import Rolling
-from rheoclast.mechanics.criteria.sliding import Sliding
-from rheoclast.mechanics.criteria.tension import Tension
-from rheoclast.mechanics.criteria.twisting import Twisting
 from rheoclast.mechanics.laws.jkr import JKR
 from rheoclast.mechanics.laws.law import ContactLaw
 from rheoclast.mechanics.laws.measured_pull_off import MeasuredPullOff
 from rheoclast.mechanics.laws.uniform import Uniform
 from rheoclast.mechanics.material import MATERIALS, Material
+from rheoclast.names import CRITERIA, FLOWS
 
 
 class Flow(StrEnum):
@@ -71,22 +66,6 @@ class OrientationChoice(StrEnum):
     orbit = "orbit"
     random = "random"
 
-
-CRITERIA: Mapping[CriterionChoice, Callable[[float], Criterion]] = {
-    CriterionChoice.every_limit: lambda friction: Tension() | Sliding(friction) | Rolling() | Twisting(),
-    CriterionChoice.tension: lambda friction: Tension(),
-    CriterionChoice.sliding: Sliding,
-    CriterionChoice.rolling: lambda friction: Rolling(),
-    CriterionChoice.twisting: lambda friction: Twisting(),
-    CriterionChoice.combined: lambda friction: Combined(),
-}
-
-FLOWS = {
-    Flow.shear: simple_shear,
-    Flow.uniaxial: uniaxial_extension,
-    Flow.biaxial: biaxial_extension,
-    Flow.planar: planar_extension,
-}
 
 AGGREGATE, FLOW, LIQUID, BONDS, OUTPUT = "Aggregate", "Flow", "Liquid and model", "Contacts", "Output"
 BREAKUP = "Breakup"

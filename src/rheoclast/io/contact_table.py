@@ -9,6 +9,7 @@ import numpy as np
 from rheoclast._checks import IntArray
 from rheoclast.io.csv_table import named_rows
 from rheoclast.io.files import load
+from rheoclast.io.writing import write_table
 
 
 def read_pairs(path: str | os.PathLike[str]) -> IntArray:
@@ -32,3 +33,9 @@ def read_pairs(path: str | os.PathLike[str]) -> IntArray:
         except (ValueError, IndexError):
             raise file.error(f"expected the numbers of two spheres, got {', '.join(cells)!r:.80}", line) from None
     return pairs
+
+
+def write_pairs(path: str | os.PathLike[str], pairs: IntArray, overwrite: bool = False) -> None:
+    """Write a table of contacts (C, 2) that `read_pairs` reads. Errors as in `write_table`."""
+    i, j = pairs.T
+    write_table(path, {"i": i, "j": j}, overwrite)
