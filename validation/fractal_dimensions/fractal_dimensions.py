@@ -33,13 +33,11 @@ class Published(NamedTuple):
 FAMILIES: Mapping[str, tuple[generation.families.Family, Published]] = {
     "diffusion-limited cluster–cluster": (
         generation.diffusion_limited_cluster_cluster,
-        Published(1.78, 0.1, "Meakin, Phys. Rev. Lett. 51 (1983) 1119; Kolb, Botet & Jullien, ibid. 1123"),
+        Published(1.78, 0.1, "Jullien, Kolb & Botet, J. Physique Lett. 45 (1984) L211"),
     ),
     "ballistic cluster–cluster": (
         generation.ballistic_cluster_cluster,
-        Published(
-            1.95, 0.1, "Meakin, J. Colloid Interface Sci. 102 (1984) 491; Jullien & Kolb, J. Phys. A 17 (1984) L639"
-        ),
+        Published(1.95, 0.1, "Meakin, Phys. Rev. A 29 (1984) 997; Jullien, J. Phys. A 17 (1984) L771"),
     ),
     "reaction-limited cluster–cluster": (
         generation.reaction_limited_cluster_cluster,

@@ -69,6 +69,7 @@ def progress_bar() -> Iterator[Callable[[str, float], None]]:
         TimeRemainingColumn(),
         console=messages,
         transient=True,
+        disable=not messages.is_terminal,
     )
     task = bar.add_task("solving", total=None)
 

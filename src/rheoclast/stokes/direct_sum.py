@@ -28,7 +28,7 @@ def pair_velocities(
 
     With d = x_i − x_j, r = |d| and radii a, b of target and source, the flow is (1 + b²/6 ∇²) G·F + T × d / r³
     − (1 + b²/10 ∇²) ∇G : S, and the target's motion (1 + a²/6 ∇²) u, ½ ∇ × u, (1 + a²/10 ∇²) sym ∇u
-    (Kim & Karrila 1991, sections 2.5 and 3.2).
+    (Kim & Karrila 1991, sections 2.5, 3.2 and 3.5).
 
     Parameters
     ----------

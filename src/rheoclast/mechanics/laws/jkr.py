@@ -35,8 +35,9 @@ class JKR(ContactLaw):
 
     - shear strength 2μF_c, with which sliding begins under no load, F_c the pull-off force (C. Thornton, J. Phys. D 24
       (1991) 1942),
-    - twisting strength (3π/16)c times that, the moment that turns the whole of a Hertzian contact,
-    - bending strength 4F_cξ (C. Dominik & A. G. G. M. Tielens, Astrophys. J. 480 (1997) 647).
+    - twisting strength (3π/16)c times that, which turns a whole contact with Hertz's distribution of pressure,
+    - bending strength 4F_cξ (C. Dominik & A. G. G. M. Tielens, Phil. Mag. A 72 (1995) 783, Astrophys. J. 480
+      (1997) 647).
 
     Bending moments in aggregates are of the order of force times radius: with ξ of nanometres contacts roll long before
     they are pulled off.
