@@ -26,7 +26,7 @@ def row(count: int, history: rc.GradientHistory) -> tuple[str, ...]:
     start = time.perf_counter()
     orbit = rc.trajectory(response, history)
     turned = time.perf_counter()
-    loads = rc.load_history(orbit, table, bonds, history.times)
+    loads = rc.load_history(orbit, table, bonds, times=history.times)
     done = time.perf_counter()
     seconds = (turned - start, done - turned, done - start)
     return (str(count), str(len(loads.largest)), *(f"{each:.2f}" for each in seconds))

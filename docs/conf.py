@@ -7,6 +7,9 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+from sphinx.util.inspect import TypeAliasForwardRef
+from sphinx_gallery.sorting import ExplicitOrder
+
 import rheoclast
 
 DOCS = Path(__file__).parent
@@ -52,7 +55,7 @@ autodoc_default_options = {"members": True}
 autodoc_member_order = "bysource"
 autodoc_class_signature = "mixed"
 autodoc_typehints_format = "short"
-autodoc_type_aliases = {"FloatArray": "FloatArray", "IntArray": "IntArray", "ArrayLike": "ArrayLike"}
+autodoc_type_aliases = {name: name for name in ("FloatArray", "IntArray", "ArrayLike", "Columns")}
 autosummary_generate = False
 napoleon_google_docstring = False
 napoleon_use_ivar = True
@@ -72,6 +75,18 @@ def pictures_written(block: Any, block_vars: dict[str, Any], gallery_conf: dict[
     return figure_rst(pictures, gallery_conf["src_dir"])
 
 
+FROM_EASY_TO_HARD = (
+    "loads_of_a_floc_in_shear.py",
+    "worst_orientation.py",
+    "error_bars_and_multipole_order.py",
+    "crack_through_a_packed_ball.py",
+    "trees_and_packings.py",
+    "cascade_of_fragments.py",
+    "tumbling_in_shear.py",
+    "breakage_rate_in_turbulence.py",
+)
+"""The examples in the order of the gallery; those that are not named here come last."""
+
 sphinx_gallery_conf = {
     "examples_dirs": "_examples",
     "gallery_dirs": "gallery",
@@ -82,7 +97,7 @@ sphinx_gallery_conf = {
     "show_memory": False,
     "write_computation_times": False,
     "min_reported_time": 1e9,
-    "within_subsection_order": "FileNameSortKey",
+    "within_subsection_order": ExplicitOrder((*FROM_EASY_TO_HARD, "*")),
     "show_signature": False,
 }
 
@@ -152,6 +167,7 @@ def plain_bars(line: str) -> str:
 
 def setup(app: Any) -> None:
     """Prepare what is generated before Sphinx looks for pages."""
+    TypeAliasForwardRef.__repr__ = lambda alias: alias.name  # within other types an alias is shown by its `repr`
     app.connect("autodoc-process-docstring", before_napoleon, priority=100)
     app.connect("autodoc-process-docstring", after_napoleon, priority=900)
     validation_pages()

@@ -23,7 +23,7 @@ DISSIPATIONS = (0.06, 0.075, 0.095, 0.12)
 PATHS, KOLMOGOROV_TIMES = 60, 60
 
 
-def breakage_rates() -> list[rc.BreakageRate]:
+def breakage_rates() -> list[rc.EventRate]:
     """Rate of first failures of a weakly adhering floc at each dissipation."""
     floc = rc.generation.cluster_cluster(100, radius=0.5e-6, seed=6)
     bonds = rc.MeasuredPullOff(force=1e-10, stiffness=rc.JKR(rc.MATERIALS["polystyrene"])).bonds(floc)
@@ -35,7 +35,7 @@ def breakage_rates() -> list[rc.BreakageRate]:
         duration = KOLMOGOROV_TIMES * rc.kolmogorov_time(dissipation, KINEMATIC_VISCOSITY)
         paths = rc.gaussian_histories(PATHS, duration, dissipation, KINEMATIC_VISCOSITY, seed=1)
         orbits = (rc.trajectory(response, path, start=start) for path, start in zip(paths, starts, strict=True))
-        waiting = rc.first_exceedance_times(rc.load_history(orbit, table, bonds) for orbit in orbits)
+        waiting = rc.first_failure_times(rc.load_history(orbit, table, bonds) for orbit in orbits)
         rates.append(rc.breakage_rate(waiting))
     return rates
 

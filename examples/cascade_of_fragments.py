@@ -30,7 +30,8 @@ def cascade() -> rc.Cascade:
 
 def places(pieces: tuple[rc.Piece, ...]) -> list[int]:
     """Left end of every piece's bar, in spheres: children side by side below their parent."""
-    left, free = [], []
+    left: list[int] = []
+    free: list[int] = []
     for piece in pieces:
         start = 0 if piece.parent is None else free[piece.parent]
         left.append(start)
@@ -52,7 +53,7 @@ def cascade_of_fragments() -> Figure:
         axes.broken_barh([(left, size)], (piece.generation - 0.42, 0.84), color=colour, ec="white", lw=1.0)
         if size >= 5:
             ink = "white" if piece.holds else "#2a5b84"
-            axes.text(left + size / 2, piece.generation, size, ha="center", va="center", color=ink, fontsize=8)
+            axes.text(left + size / 2, piece.generation, str(size), ha="center", va="center", color=ink, fontsize=8)
     deepest = max(piece.generation for piece in event.pieces)
     axes.set(xlim=(0, SPHERES), ylim=(deepest + 0.6, -0.6), yticks=range(deepest + 1))
     axes.set(xlabel="spheres", ylabel="generation")

@@ -29,12 +29,14 @@ from rheoclast.flows import LinearFlow, biaxial_extension, planar_extension, sim
 from rheoclast.histories import GradientHistory
 from rheoclast import turbulence
 from rheoclast.turbulence import gaussian_histories, kolmogorov_time, recent_deformation_histories
-from rheoclast.hydrodynamics.model import HydrodynamicModel
+from rheoclast.hydrodynamics.model import Approximation, HydrodynamicModel
 from rheoclast.hydrodynamics.free_draining import FreeDraining
 from rheoclast.hydrodynamics.exposed_area import ExposedArea
 from rheoclast.hydrodynamics.stokesian_dynamics import StokesianDynamics
+from rheoclast.stokes.automatic import Automatic
 from rheoclast.stokes.dense import DenseCholesky
 from rheoclast.stokes.iterative import BlockConjugateGradients
+from rheoclast.stokes.solver import Convergence
 from rheoclast.hydrodynamics.response import RigidResponse, rigid_response
 from rheoclast.hydrodynamics.motion import RigidMotion, Settling
 from rheoclast.hydrodynamics.trajectory import Gradients, Trajectory, trajectory
@@ -45,33 +47,32 @@ from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.laws.law import ContactLaw
 from rheoclast.mechanics.laws.jkr import JKR, jkr_bonds
 from rheoclast.mechanics.laws.measured_pull_off import MeasuredPullOff
-from rheoclast.mechanics.laws.uniform import Uniform
 from rheoclast.mechanics.contact_loads import ContactLoads, contact_loads
-from rheoclast.mechanics.criteria.criterion import Criterion
+from rheoclast.mechanics.criteria.criterion import AnyOf, Criterion
 from rheoclast.mechanics.criteria.tension import Tension
 from rheoclast.mechanics.criteria.sliding import Sliding
 from rheoclast.mechanics.criteria.rolling import Rolling
 from rheoclast.mechanics.criteria.twisting import Twisting
 from rheoclast.mechanics.criteria.combined import Combined
-from rheoclast.mechanics.criteria.any_of import AnyOf
 from rheoclast.mechanics.criteria.load_ratios import EVERY_LIMIT, load_ratios
 
 from rheoclast.breakup.contact_response import ContactResponse, contact_response
-from rheoclast.breakup.truncation import TruncationError, truncation_error
-from rheoclast.breakup.initiation import Initiation, initiation, worst_initiation
+from rheoclast.breakup.initiation import Initiation, Initiations, initiation, initiations, worst_initiation
+from rheoclast.breakup.truncation import TruncationError, rate_error, truncation_error
 from rheoclast.breakup.event import Breakup, Failure
 from rheoclast.breakup.crack import break_up, break_up_each
 from rheoclast.breakup.load_history import Exceedances, FirstFailure, LargestLoad, LoadHistory, load_history
 from rheoclast.breakup.orbit import OrbitInitiation, orbit_initiation
+from rheoclast.breakup.orientation import flow_met
 from rheoclast.breakup.cascade import Cascade, Piece, cascade
 
 from rheoclast.populations.orientations import random_orientations
 from rheoclast.populations.breakage_rate import (
-    BreakageRate,
+    EventRate,
     WaitingTimes,
     breakage_rate,
     exceedance_rate,
-    first_exceedance_times,
+    first_failure_times,
     poisson_rate,
 )
 from rheoclast.populations.power_law import PowerLaw, power_law
@@ -84,7 +85,7 @@ from rheoclast.populations.turbulent_breakage import (
 )
 from rheoclast.populations.kernel_table import KERNEL_COLUMNS, KernelEntry, kernel_table
 
-from rheoclast.errors import FileFormatError, GeometryError, UnitWarning
+from rheoclast.errors import FileFormatError, GeometryError, GeometryWarning, UnitWarning
 # isort: on
 
 __all__ = [
@@ -126,12 +127,15 @@ __all__ = [
     "gaussian_histories",
     "kolmogorov_time",
     "recent_deformation_histories",
+    "Approximation",
     "HydrodynamicModel",
     "FreeDraining",
     "ExposedArea",
     "StokesianDynamics",
+    "Automatic",
     "DenseCholesky",
     "BlockConjugateGradients",
+    "Convergence",
     "RigidResponse",
     "rigid_response",
     "RigidMotion",
@@ -147,7 +151,6 @@ __all__ = [
     "JKR",
     "jkr_bonds",
     "MeasuredPullOff",
-    "Uniform",
     "ContactLoads",
     "contact_loads",
     "Criterion",
@@ -161,11 +164,14 @@ __all__ = [
     "load_ratios",
     "ContactResponse",
     "contact_response",
-    "TruncationError",
-    "truncation_error",
     "Initiation",
+    "Initiations",
     "initiation",
+    "initiations",
     "worst_initiation",
+    "TruncationError",
+    "rate_error",
+    "truncation_error",
     "Breakup",
     "Failure",
     "break_up",
@@ -177,15 +183,16 @@ __all__ = [
     "load_history",
     "OrbitInitiation",
     "orbit_initiation",
+    "flow_met",
     "Cascade",
     "Piece",
     "cascade",
     "random_orientations",
-    "BreakageRate",
+    "EventRate",
     "WaitingTimes",
     "breakage_rate",
     "exceedance_rate",
-    "first_exceedance_times",
+    "first_failure_times",
     "poisson_rate",
     "PowerLaw",
     "power_law",
@@ -200,5 +207,6 @@ __all__ = [
     "kernel_table",
     "FileFormatError",
     "GeometryError",
+    "GeometryWarning",
     "UnitWarning",
 ]

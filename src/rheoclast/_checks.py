@@ -5,13 +5,41 @@ Messages say what was expected, what came, which item, and what to do.
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from functools import wraps
+from inspect import signature
+from itertools import chain
+from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+HOW_TO_MAKE = {
+    "Spheres": "make them with Spheres(centers, radii), or take aggregate.spheres",
+    "Aggregate": "make one with Aggregate.touching(spheres)",
+    "Material": "for instance MATERIALS['polystyrene']",
+    "Bonds": "make them with jkr_bonds(aggregate, material)",
+    "LinearFlow": "for instance simple_shear(1e5)",
+    "HydrodynamicModel": "for instance StokesianDynamics(order=2)",
+    "RigidResponse": "make one with rigid_response(spheres, model, viscosity)",
+    "ContactResponse": "make one with contact_response(aggregate, response, bonds)",
+    "SphereLoads": "for instance response.loads(flow)",
+    "ContactLoads": "for instance contact_loads(aggregate, response.loads(flow), bonds)",
+    "Criterion": "for instance Tension()",
+    "Initiation": "make one with initiation(table, bonds, flow)",
+    "Trajectory": "make one with trajectory(response, flow)",
+    "LoadHistory": "make one with load_history(trajectory, table, bonds)",
+    "WaitingTimes": "make them with first_failure_times(histories)",
+    "EventRate": "make one with breakage_rate(waiting)",
+    "FragmentDistribution": "make one with fragment_distribution(breakups)",
+    "Breakup": "make one with break_up(aggregate, response, bonds, flow)",
+}
 
 
 def real_array(
@@ -75,15 +103,23 @@ def whole_number(name: str, value: Any, least: int) -> int:
     return int(value)
 
 
-def rotation_matrix(name: str, value: Any) -> FloatArray:
-    """Proper orthogonal (3, 3) matrix, from a matrix or a `scipy.spatial.transform.Rotation`."""
+def seeded(seed: Any) -> np.random.Generator:
+    """Random numbers that are the same for equal seeds."""
+    return np.random.default_rng(whole_number("seed", seed, 0))
+
+
+def rotation_matrix(name: str, value: Any, shape: tuple[int | str, ...] = (3, 3)) -> FloatArray:
+    """Proper orthogonal matrices (..., 3, 3), from matrices or a `scipy.spatial.transform.Rotation`."""
     as_matrix = getattr(value, "as_matrix", None)
-    matrix = real_array(name, value if as_matrix is None else as_matrix(), (3, 3))
-    deviation = float(np.abs(matrix @ matrix.T - np.eye(3)).max())
-    if deviation > 1e-9 or np.linalg.det(matrix) < 0:
+    matrix = real_array(name, value if as_matrix is None else as_matrix(), shape)
+    deviation = np.abs(matrix @ np.swapaxes(matrix, -1, -2) - np.eye(3)).max(axis=(-2, -1))
+    determinant = np.linalg.det(matrix)
+    bad = np.argwhere((deviation > 1e-9) | (determinant < 0))
+    if len(bad):
+        index = tuple(int(k) for k in bad[0])
         raise ValueError(
-            f"{name}: expected a rotation matrix, got one with |R Rᵀ − 1| = {deviation:.2g} "
-            f"and determinant {np.linalg.det(matrix):.3g}"
+            f"{name}{list(index) if index else ''}: expected a rotation matrix, "
+            f"got one with |R Rᵀ − 1| = {deviation[index]:.2g} and determinant {determinant[index]:.3g}"
         )
     return matrix
 
@@ -98,14 +134,36 @@ def _shown(shape: tuple[int | str, ...]) -> str:
     return "(" + ", ".join(map(str, shape)) + ("," if len(shape) == 1 else "") + ")"
 
 
-def instance(name: str, value: object, kind: type, advice: str) -> None:
-    """Refuse a value of another type.
+def instance(name: str, value: object, kind: type | str, advice: str | None = None) -> None:
+    """Refuse a value of another type, given as a class or by the name of one.
 
     Raises
     ------
     TypeError
-        With the types expected and received, and what to do.
+        With the types expected and received, and what to do: the advice, by default that of `HOW_TO_MAKE`.
     """
-    if not isinstance(value, kind):
+    wanted = kind if isinstance(kind, str) else kind.__name__
+    if wanted not in [each.__name__ for each in type(value).__mro__]:
         got = f"the class {value.__name__}" if isinstance(value, type) else type(value).__name__
-        raise TypeError(f"{name}: expected {kind.__name__}, got {got}; {advice}")
+        raise TypeError(f"{name}: expected {wanted}, got {got}; {advice or HOW_TO_MAKE[wanted]}")
+
+
+def instances(function: Callable[P, T]) -> Callable[P, T]:
+    """The function, which now refuses arguments that are not of the classes in its signature, as `instance` does."""
+    names = signature(function).parameters
+    wanted = {name: each.annotation for name, each in names.items() if each.annotation in HOW_TO_MAKE}
+
+    @wraps(function)
+    def checked(*args: P.args, **kwargs: P.kwargs) -> T:
+        for name, value in chain(zip(names, args, strict=False), kwargs.items()):
+            if name in wanted:
+                instance(name, value, wanted[name])
+        return function(*args, **kwargs)
+
+    return checked
+
+
+def set_fields(frozen_instance: object, **values: Any) -> None:
+    """Give a frozen dataclass its fields, which only its own `__init__` or `__post_init__` may do."""
+    for name, value in values.items():
+        object.__setattr__(frozen_instance, name, value)

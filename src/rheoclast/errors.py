@@ -10,4 +10,8 @@ class FileFormatError(ValueError):
 
 
 class UnitWarning(UserWarning):
-    """A length or a viscosity is so large that its unit is probably wrong."""
+    """A length is so large or small, or a viscosity so large, that its unit is probably wrong."""
+
+
+class GeometryWarning(UserWarning):
+    """Contacts reach across gaps so wide that the spheres in them are probably not those that touch."""

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from rheoclast import _checks
 from rheoclast._checks import FloatArray
@@ -17,7 +18,7 @@ ROUNDING = 1e-14
 LARGEST_RATE = 1e100  # 1/s; beyond it products overflow
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class LinearFlow:
     """Undisturbed incompressible linear flow u(x) = Γ·x.
 
@@ -37,11 +38,11 @@ class LinearFlow:
     """
 
     gradient: FloatArray
-    rate: float = None  # type: ignore[assignment]  # replaced by the magnitude
+    rate: float
 
-    def __post_init__(self) -> None:
-        gradient = _checks.real_array("gradient", self.gradient, (3, 3))
-        trace, size = float(np.trace(gradient)), float(np.abs(gradient).max())
+    def __init__(self, gradient: ArrayLike, rate: float | None = None) -> None:
+        matrix = _checks.real_array("gradient", gradient, (3, 3))
+        trace, size = float(np.trace(matrix)), float(np.abs(matrix).max())
         if abs(trace) > TRACE_TOLERANCE * size:
             raise ValueError(
                 f"gradient: expected zero trace (an incompressible flow), got {trace:g}; "
@@ -49,11 +50,11 @@ class LinearFlow:
             )
         if size > LARGEST_RATE:
             raise ValueError(f"gradient: expected rates up to {LARGEST_RATE:g} 1/s, got {size:.3g}; check the unit")
-        object.__setattr__(self, "gradient", gradient)
-        rate = self.magnitude if self.rate is None else _checks.not_negative("rate", self.rate)
-        if rate == 0 < self.magnitude:
+        _checks.set_fields(self, gradient=matrix)
+        quoted = self.magnitude if rate is None else _checks.not_negative("rate", rate)
+        if quoted == 0 < self.magnitude:
             raise ValueError(f"rate: expected a positive number for a flow of magnitude {self.magnitude:.3g}, got 0")
-        object.__setattr__(self, "rate", rate)
+        _checks.set_fields(self, rate=quoted)
 
     @cached_property
     def strain_rate(self) -> FloatArray:
@@ -78,7 +79,7 @@ class LinearFlow:
         """sqrt(2 E:E) in 1/s, the dissipation rate over viscosity being its square."""
         return float(np.sqrt(2 * np.sum(self.strain_rate**2)))
 
-    def velocity(self, points: FloatArray) -> FloatArray:
+    def velocity(self, points: ArrayLike) -> FloatArray:
         """Velocity (..., 3) in m/s at points (..., 3) in m."""
         return np.asarray(points, dtype=np.float64) @ self.gradient.T
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import InitVar, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from rheoclast.flows import LARGEST_RATE, TRACE_TOLERANCE, LinearFlow
 ROUNDING_OF_TIME = 1e-12  # of the largest time: by so much an integrator may step past an end
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class GradientHistory:
     """Velocity gradient of an incompressible flow along a path, straight lines between the instants.
 
@@ -38,17 +38,15 @@ class GradientHistory:
 
     times: FloatArray
     gradients: FloatArray
-    tolerance: InitVar[float] = TRACE_TOLERANCE
 
-    def __post_init__(self, tolerance: float) -> None:
-        times = _increasing_times(self.times)
-        gradients = _checks.real_array("gradients", self.gradients, (len(times), 3, 3))
-        size = float(np.abs(gradients).max())
+    def __init__(self, times: ArrayLike, gradients: ArrayLike, tolerance: float = TRACE_TOLERANCE) -> None:
+        instants = _increasing_times(times)
+        given = _checks.real_array("gradients", gradients, (len(instants), 3, 3))
+        size = float(np.abs(given).max())
         if size > LARGEST_RATE:
             raise ValueError(f"gradients: expected rates up to {LARGEST_RATE:g} 1/s, got {size:.3g}; check the unit")
-        _refuse_traces(gradients, _checks.not_negative("tolerance", tolerance), size)
-        object.__setattr__(self, "times", times)
-        object.__setattr__(self, "gradients", _checks.frozen(traceless(gradients)))
+        _refuse_traces(given, _checks.not_negative("tolerance", tolerance), size)
+        _checks.set_fields(self, times=instants, gradients=_checks.frozen(traceless(given)))
 
     def __len__(self) -> int:
         """Number of instants."""

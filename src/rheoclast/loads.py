@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from rheoclast._checks import FloatArray, not_negative, real_array
+from rheoclast._checks import FloatArray, not_negative, real_array, set_fields
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,6 +31,11 @@ class SphereLoads:
 
     def __post_init__(self) -> None:
         force = real_array("force", self.force, (*np.shape(self.force)[:-2], "N", 3))
-        object.__setattr__(self, "force", force)
-        object.__setattr__(self, "torque", real_array("torque", self.torque, force.shape))
-        object.__setattr__(self, "rounding", not_negative("rounding", self.rounding))
+        torque, rounding = real_array("torque", self.torque, force.shape), not_negative("rounding", self.rounding)
+        set_fields(self, force=force, torque=torque, rounding=rounding)
+
+    @classmethod
+    def stacked(cls, each: Sequence[SphereLoads]) -> SphereLoads:
+        """Several loads (..., N, 3) of the same spheres as one batch (n, ..., N, 3), with the largest rounding."""
+        force, torque = (np.stack([getattr(loads, name) for loads in each]) for name in ("force", "torque"))
+        return cls(force, torque, max(loads.rounding for loads in each))

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from rheoclast._checks import FloatArray
 from rheoclast.errors import UnitWarning
 
-LARGEST_USUAL_RADIUS = 1e-3  # m
+USUAL_RADII = 1e-10, 1e-3  # m; atoms are below
 LARGEST_USUAL_VISCOSITY = 1e3  # Pa s
 
 
@@ -35,15 +35,16 @@ class Scales:
 
 
 def warn_of_radii(radii: FloatArray) -> None:
-    """Warn when a radius exceeds 1 mm: colloids are smaller, so the unit of length is probably missing."""
-    largest = float(radii.max())
-    if largest > LARGEST_USUAL_RADIUS:
-        warnings.warn(
-            f"radii up to {largest:.3g} m exceed 1 mm: is the unit of length right? "
-            "Give it when reading (unit='nm'), or set viscosity=1 for dimensionless work",
-            UnitWarning,
-            stacklevel=3,
-        )
+    """Warn when a radius exceeds 1 mm or is below 0.1 nm: the unit of length is probably wrong."""
+    smallest, largest = USUAL_RADII
+    if radii.max() > largest:
+        found = f"radii up to {radii.max():.3g} m exceed 1 mm"
+    elif radii.min() < smallest:
+        found = f"radii down to {radii.min():.3g} m are below 0.1 nm"
+    else:
+        return
+    advice = "give it when reading (unit='nm'), or set viscosity=1 for dimensionless work"
+    warnings.warn(f"{found}: is the unit of length right? If not, {advice}", UnitWarning, stacklevel=3)
 
 
 def warn_of_viscosity(viscosity: float) -> None:

@@ -1,6 +1,7 @@
 """A crack by updates of one factorization ↔ every share of the load solved anew; trees ↔ statics; symmetry ↔ ties."""
 
 from dataclasses import replace
+from itertools import chain
 
 import numpy as np
 import pytest
@@ -162,7 +163,7 @@ def test_sequence_by_every_criterion_is_that_of_solving_anew(name, at_once):
     bonds, flow = of_many_strengths(aggregate, seed=6, spread=0.5), rc.simple_shear(1.0)
     response = rc.rigid_response(aggregate.spheres, rc.FreeDraining(), viscosity=1e-3)
     rule = "overloaded" if at_once else "weakest"
-    breakup = rc.break_up(aggregate, response, bonds, flow, rule, criterion)
+    breakup = rc.break_up(aggregate, response, bonds, flow, rule=rule, criterion=criterion)
     expected, parts = solved_anew(aggregate, response, bonds, flow, at_once=at_once, ratio_of=ratio_of)
     assert len(expected) >= 5
     found = [(failure.contact, failure.rate) for failure in breakup.failures]
@@ -173,35 +174,41 @@ def test_sequence_by_every_criterion_is_that_of_solving_anew(name, at_once):
     assert sorted(map(len, breakup.spheres)) == sorted(np.bincount(parts).tolist())
 
 
-def expected_margin_and_rivals(aggregate, response, bonds, flow, kept, failed):
-    """Lead over the next contact; contacts behind by less than what the orders tell of the error of that difference."""
+def expected_margins_and_rivals(aggregate, response, bonds, flow, kept, failing):
+    """Of each contact that fails in a step: lead over the next that holds; those that hold, but are behind by less than
+    what the orders tell of the error of that difference.
+    """
     rest = rc.Aggregate(aggregate.spheres, aggregate.pairs[kept])
-    strength = chosen(bonds, kept).strength(kept.sum())
-    leads, numbers = [], np.flatnonzero(kept)
+    strength, numbers, ratios = chosen(bonds, kept).strength(kept.sum()), np.flatnonzero(kept), []
     for order in response.by_order:
         carried = rc.contact_loads(rest, order.loads(flow), chosen(bonds, kept), "springs")
-        ratio = relative_loads(carried, strength)[0]
-        leads.append(ratio[numbers == failed] - ratio)
-    changes = np.diff(leads, axis=0)
-    if response.order == 2:
-        error = FORCE.share * abs(changes[-1])
-    else:
-        error = response.order / 6 * np.hypot(changes[-1], FORCE.weight * changes[-2])
-    others = (ratio > 0) & (numbers != failed)
-    margin = leads[-1][others].min() / ratio.max()
-    return margin, tuple(numbers[others & (leads[-1] < error)].tolist())
+        ratios.append(relative_loads(carried, strength)[0])
+    others = (ratios[-1] > 0) & ~np.isin(numbers, failing)
+    for contact in failing:
+        own = numbers == contact
+        leads = [ratio[own] - ratio for ratio in ratios]
+        changes = np.diff(leads, axis=0)
+        if response.order == 2:
+            error = FORCE.share * abs(changes[-1])
+        else:
+            error = response.order / 6 * np.hypot(changes[-1], FORCE.weight * changes[-2])
+        margin = leads[-1][others].min() / ratios[-1][own].item() if others.any() else 1.0
+        yield int(contact), margin, tuple(numbers[others & (leads[-1] < error)].tolist())
 
 
+@pytest.mark.parametrize("rule", ["weakest", "overloaded"])
 @pytest.mark.parametrize("order", [2, 3, 4])
-def test_margin_and_rivals_within_the_error_of_the_lead(order):
-    """At every failure of a crack, from the loads at all orders."""
+def test_margin_and_rivals_within_the_error_of_the_lead(order, rule):
+    """At every failure of a crack, from the loads at all orders. Contacts that fail at once are no rivals."""
     aggregate = random_packed_ball(24, RADIUS, seed=2)
     response, bonds = setting(aggregate, rc.StokesianDynamics(order))
-    flow = rc.simple_shear(1.0)
-    breakup = rc.break_up(aggregate, response, bonds, flow)
-    setup = aggregate, response, bonds, flow
-    expected = [expected_margin_and_rivals(*setup, kept, failed[0]) for kept, failed, _ in steps(*setup)]
-    margins, rivals = zip(*expected, strict=True)
+    setup = aggregate, response, bonds, rc.simple_shear(1.0)
+    breakup = rc.break_up(*setup, rule=rule)
+    taken = list(steps(*setup, at_once=rule == "overloaded"))
+    assert (max(len(failing) for _, failing, _ in taken) > 1) == (rule == "overloaded")
+    told = chain.from_iterable(expected_margins_and_rivals(*setup, kept, failing) for kept, failing, _ in taken)
+    expected = {contact: (margin, rivals) for contact, margin, rivals in told}
+    margins, rivals = zip(*(expected[failure.contact] for failure in breakup.failures), strict=True)
     np.testing.assert_allclose([failure.margin for failure in breakup.failures], margins, rtol=1e-6)
     assert tuple(failure.rivals for failure in breakup.failures) == rivals
     assert breakup.near_ties() == tuple(k for k, each in enumerate(rivals) if each)

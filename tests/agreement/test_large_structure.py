@@ -88,16 +88,17 @@ def test_every_sphere_of_a_large_tree_is_in_balance(aggregate):
 def test_every_sphere_of_a_large_hyperstatic_structure_is_in_balance():
     """Coordination near 5, by springs."""
     aggregate = porous_cube(36)
-    assert len(aggregate) > springs.LARGEST_BY_SUPERLU
+    assert len(aggregate.pairs) - len(aggregate) > springs.MOST_LOOPS_BY_SUPERLU
     assert 2 * len(aggregate.pairs) / len(aggregate) == pytest.approx(5, abs=0.3)
     loads = balanced_loads(aggregate)
     assert unbalanced(aggregate, loads, rc.contact_loads(aggregate, loads, BONDS)) < 1e-10
 
 
-def test_springs_equal_statics_on_a_large_tree():
-    """What the fronts of a tree give is known from balance alone."""
+@pytest.mark.parametrize("most_loops", [0, -1])
+def test_springs_equal_statics_on_a_large_tree(monkeypatch, most_loops):
+    """What SuperLU, or the fronts of a tree, give is known from balance alone."""
+    monkeypatch.setattr(springs, "MOST_LOOPS_BY_SUPERLU", most_loops)
     tree = open_tree(6_000)
-    assert len(tree) > springs.LARGEST_BY_SUPERLU
     loads = balanced_loads(tree)
     assert_same(rc.contact_loads(tree, loads, BONDS, method="springs"), rc.contact_loads(tree, loads), 1e-9)
 
@@ -107,8 +108,9 @@ def test_fronts_equal_superlu(monkeypatch, side):
     """Two factorizations of one frame, a single front or hundreds."""
     aggregate = porous_cube(side)
     loads = balanced_loads(aggregate)
+    monkeypatch.setattr(springs, "MOST_LOOPS_BY_SUPERLU", np.inf)
     expected = rc.contact_loads(aggregate, loads, BONDS)
-    monkeypatch.setattr(springs, "LARGEST_BY_SUPERLU", 0)
+    monkeypatch.setattr(springs, "MOST_LOOPS_BY_SUPERLU", 0)
     assert_same(rc.contact_loads(aggregate, loads, BONDS), expected, 1e-9)
 
 
@@ -137,7 +139,7 @@ def test_an_indefinite_matrix_is_refused():
 
 def test_a_large_singular_frame_is_refused(monkeypatch):
     """With the advice that smaller ones give."""
-    monkeypatch.setattr(springs, "LARGEST_BY_SUPERLU", 0)
+    monkeypatch.setattr(springs, "MOST_LOOPS_BY_SUPERLU", 0)
     aggregate = porous_cube(6)
     bonds = rc.Bonds(normal=1.0, tangential=1e-30, bending=1e-30, twisting=1e-30)
     with pytest.raises(ArithmeticError, match="bring the"):

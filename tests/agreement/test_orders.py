@@ -277,46 +277,46 @@ AUTOMATIC = ["doublet", "unequal doublet", "tree of 5", "polydisperse tree of 4"
 
 
 class TestAutomaticOrder:
-    @pytest.mark.parametrize("tolerance", [0.5, 0.1, 0.02, 0.005])
+    @pytest.mark.parametrize("accuracy", [0.5, 0.1, 0.02, 0.005])
     @pytest.mark.parametrize("name", AUTOMATIC)
-    def test_is_the_smallest_that_meets_the_tolerance(self, name, tolerance):
+    def test_is_the_smallest_that_reaches_the_accuracy(self, name, accuracy):
         """By the expected error of the forces on the free aggregate, from orders that are solved one by one."""
         forces = {p: by_order(name)[p].strain_loads.force for p in range(1, FINEST + 1)}
         errors = {
             p: expected_error([forces[q] for q in range(max(1, p - 2), p + 1)], p) / np.linalg.norm(forces[p])
             for p in range(2, FINEST + 1)
         }
-        wanted = min(p for p, error in errors.items() if error <= tolerance)
-        model = rc.StokesianDynamics(order="auto", tolerance=tolerance)
+        wanted = min(p for p, error in errors.items() if error <= accuracy)
+        model = rc.StokesianDynamics(order="auto", accuracy=accuracy)
         found = rc.rigid_response(rc.Spheres(*CLUSTERS[name]), model, viscosity=1.0)
         assert found.order == wanted
         scale = np.abs(by_order(name)[wanted].table).max()
         np.testing.assert_allclose(found.table, by_order(name)[wanted].table, rtol=0, atol=1e-11 * scale)
 
-    def test_tensions_mostly_meet_the_tolerance(self):
+    def test_tensions_mostly_reach_the_accuracy(self):
         """True error (to order 8) of the worst tension, as a share of the largest: what the model says of itself.
 
-        The tolerance is on an expected error, so nine in ten may be asked to be below it, and all below twice.
+        The accuracy is on an expected error, so nine in ten may be asked to be below it, and all below twice.
         """
         excess = []
         for name in AUTOMATIC:
             exact = parts(tables(name)[FINEST])["tension"]
-            for tolerance in (0.1, 0.02, 0.005):
-                model = rc.StokesianDynamics(order="auto", tolerance=tolerance)
+            for accuracy in (0.1, 0.02, 0.005):
+                model = rc.StokesianDynamics(order="auto", accuracy=accuracy)
                 order = rc.rigid_response(rc.Spheres(*CLUSTERS[name]), model, viscosity=1.0).order
                 error = root_mean_square(exact - parts(tables(name)[order])["tension"]).max()
-                excess.append(error / root_mean_square(exact).max() / tolerance)
+                excess.append(error / root_mean_square(exact).max() / accuracy)
         assert max(excess) < 2
         assert np.mean(np.array(excess) < 1) >= 0.9
 
     def test_says_when_it_cannot_be_met(self):
         spheres = rc.Spheres(*CLUSTERS["doublet"])
         message = (
-            r"order='auto': tolerance 1e-09 is not met at order 12, which errs by [\d.]+e-05; "
-            "raise the tolerance or give the order"
+            r"order='auto': accuracy 1e-09 is not met at order 12, which errs by [\d.]+e-05; "
+            "give a larger number or the order"
         )
         with pytest.raises(ArithmeticError, match=f"^{message}$"):
-            rc.rigid_response(spheres, rc.StokesianDynamics(order="auto", tolerance=1e-9), viscosity=1.0)
+            rc.rigid_response(spheres, rc.StokesianDynamics(order="auto", accuracy=1e-9), viscosity=1.0)
 
     def test_one_sphere_needs_no_more_than_the_lowest(self):
         """It bears no force at all, which is exact at order 2."""

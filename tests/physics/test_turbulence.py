@@ -206,3 +206,24 @@ def test_invariants_fill_a_teardrop(deformed):
     for excess in ((q * r < 0) - 0.5, (below & (r > 0)) * 1.0 - (below & (r < 0))):
         per_history = excess.mean(axis=1)
         assert per_history.mean() > 5 * per_history.std() / np.sqrt(len(per_history))
+
+
+def integral_time(gradients):
+    """∫ ⟨x(0)·x(t)⟩ dt / ⟨x·x⟩ over twelve Kolmogorov times, of gradients (K, T, 3, 3) at every half of one."""
+    lags = 24
+    start = gradients[:, : gradients.shape[1] - lags]
+    shifted = [gradients[:, lag : lag + start.shape[1]] for lag in range(lags)]
+    covariance = np.stack([np.sum(start * each, axis=(-1, -2)).mean(axis=1) for each in shifted], axis=1)
+    return jackknife(covariance, lambda c: 0.5 * (c.sum(axis=0) - c[0] / 2) / c[0])
+
+
+def test_deformed_strain_lasts_longer_and_rotation_shorter_than_in_turbulence():
+    """Against 2.3 and 7.2 Kolmogorov times, which the Gaussian model takes from direct simulations."""
+    strain, rotation = map(integral_time, parts(sample(recent_deformation_histories, 500, 60.0, 0.5)))
+    for (time, error), expected in ((strain, 4.0), (rotation, 3.0)):
+        assert 5 * error < 0.5
+        assert abs(time - expected) < 0.3
+    assert strain[0] > 1.5 * STRAIN_TIME
+    assert rotation[0] < 0.5 * ROTATION_TIME
+    control = integral_time(parts(sample(gaussian_histories, 500, 60.0, 0.5))[0])
+    assert abs(control[0] - STRAIN_TIME) < 5 * control[1] + 0.02

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+import rheoclast as rc
 from rheoclast import _checks
 
 
@@ -102,3 +103,39 @@ def test_rotation_matrix_refuses(matrix, message):
     """Reflections, stretches and near-rotations are refused with the size of the deviation."""
     with pytest.raises(ValueError, match=message):
         _checks.rotation_matrix("R", matrix)
+
+
+def test_instances_looks_at_the_classes_in_a_signature():
+    """Positional and named arguments, subclasses too; others and None pass to the function as they are."""
+
+    @_checks.instances
+    def told(spheres: "Spheres", flow: "LinearFlow", other: int = 0) -> tuple[object, object, int]:
+        """Its text."""
+        return spheres, flow, other
+
+    class Spheres: ...
+
+    class Hollow(Spheres): ...
+
+    class LinearFlow: ...
+
+    hollow, flow = Hollow(), LinearFlow()
+    assert told(hollow, flow=flow, other="any") == (hollow, flow, "any")
+    assert told.__doc__ == "Its text."
+    with pytest.raises(TypeError, match=r"^spheres: expected Spheres, got LinearFlow; make them with Spheres\("):
+        told(flow, flow)
+    with pytest.raises(TypeError, match=r"^flow: expected LinearFlow, got the class LinearFlow; for instance simple_"):
+        told(hollow, flow=LinearFlow)
+    with pytest.raises(TypeError, match="missing 1 required positional argument: 'flow'"):
+        told(hollow)
+
+
+def test_advice_is_there_for_every_class_that_is_named():
+    assert {name for name in _checks.HOW_TO_MAKE if not hasattr(rc, name)} == set()
+
+
+def test_seeded_gives_equal_numbers_for_equal_seeds():
+    assert _checks.seeded(3).random() == _checks.seeded(np.int64(3)).random() != _checks.seeded(4).random()
+    for seed in (-1, None, 1.0, True):
+        with pytest.raises(ValueError, match=r"^seed: expected an integer of at least 0, got"):
+            _checks.seeded(seed)

@@ -62,6 +62,13 @@ def test_equations_are_labelled_once_and_every_citation_has_its_equation():
     assert set(cited) <= set(labels)
 
 
+def test_order_of_the_gallery_names_examples():
+    ordered = re.search(r"FROM_EASY_TO_HARD = \((.*?)\n\)", (DOCS / "conf.py").read_text(encoding="utf-8"), re.S)[1]
+    named = re.findall(r'"(\w+\.py)"', ordered)
+    assert named
+    assert set(named) <= {path.name for path in (ROOT / "examples").glob("*.py")}
+
+
 def documented(page):
     return re.findall(r"^\.\. (?:auto\w+|data):: (?:[\w.]+\.)?(\w+)$", PAGES[f"reference/{page}.md"], re.M)
 

@@ -36,6 +36,17 @@ def test_loads_are_frozen_copies():
             array[0, 0] = 1.0
 
 
+def test_stacked_is_a_batch_with_the_largest_rounding():
+    rng = np.random.default_rng(1)
+    each = [rc.SphereLoads(*rng.normal(size=(2, 4, 3)), rounding) for rounding in (1e-9, 3e-9, 2e-9)]
+    batch = rc.SphereLoads.stacked(each)
+    assert batch.force.shape == batch.torque.shape == (3, 4, 3)
+    for k, loads in enumerate(each):
+        np.testing.assert_array_equal(batch.force[k], loads.force)
+        np.testing.assert_array_equal(batch.torque[k], loads.torque)
+    assert batch.rounding == 3e-9
+
+
 @pytest.mark.parametrize(
     ("force", "torque", "message"),
     [

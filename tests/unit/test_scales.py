@@ -18,7 +18,7 @@ def test_scales_change_with_units_like_forces_and_torques():
 
 def test_usual_colloids_pass_silently():
     """No warning up to 1 mm and 1000 Pa s (warnings are errors here)."""
-    warn_of_radii(np.array([1e-9, 1e-3]))
+    warn_of_radii(np.array([1e-10, 1e-3]))
     warn_of_viscosity(1e-3)
     warn_of_viscosity(1e3)
 
@@ -28,9 +28,14 @@ def test_large_radii_warn():
     with pytest.warns(
         rc.UnitWarning,
         match=r"^radii up to 0\.002 m exceed 1 mm: is the unit of length right\? "
-        r"Give it when reading \(unit='nm'\), or set viscosity=1 for dimensionless work$",
+        r"If not, give it when reading \(unit='nm'\), or set viscosity=1 for dimensionless work$",
     ):
         warn_of_radii(np.array([1e-6, 2e-3]))
+
+
+def test_radii_below_atoms_warn():
+    with pytest.warns(rc.UnitWarning, match=r"^radii down to 5e-13 m are below 0\.1 nm: is the unit of length right\?"):
+        warn_of_radii(np.array([5e-13, 1e-6]))
 
 
 def test_large_viscosity_warns():

@@ -36,7 +36,7 @@ def blocks(records, seed):
         whole = body.tension(flow, start)
         for begin in records.SETTLING + records.BLOCK * np.arange(records.BLOCKS):
             times = whole.times[(whole.times >= begin) & (whole.times < begin + records.BLOCK)]
-            yield body, rc.load_history(whole.loads.trajectory, body.table, records.UNIT_BONDS, times)
+            yield body, rc.load_history(whole.loads.trajectory, body.table, records.UNIT_BONDS, times=times)
 
 
 def test_rate_and_fragments_are_those_of_first_failures(scripts, found):
@@ -44,13 +44,13 @@ def test_rate_and_fragments_are_those_of_first_failures(scripts, found):
     ensemble = next(each for each in found if (each.model, each.family, each.spheres) == ("gaussian", "open tree", 16))
     pairs = [pair for seed in range(SEEDS) for pair in blocks(scripts["records"], seed)]
     for rate in ensemble.rates[::4]:
-        scale = rate.dissipation**0.5
-        waiting = rc.first_exceedance_times((history for _, history in pairs), scale)
+        level = rate.dissipation**-0.5
+        waiting = rc.first_failure_times((history for _, history in pairs), level=level)
         expected = rc.breakage_rate(waiting)
-        assert rate.measured.failures == expected.failures
+        assert rate.measured.events == expected.events
         assert rate.measured.rate == pytest.approx(expected.rate, rel=0.02)
         assert rate.overloaded == pytest.approx(waiting.overloaded / len(pairs))
-        failures = [(body, history.first_failure(scale), history.times[0]) for body, history in pairs]
+        failures = [(body, history.first_failure(level), history.times[0]) for body, history in pairs]
         shares = [body.smaller[each.contact] / 16 for body, each, start in failures if each and each.time > start]
         # Where two contacts change places between a failure and the next sample, the records name the later one.
         assert np.mean(ensemble.smaller_shares(rate.dissipation)[0] != shares) < 0.1

@@ -45,11 +45,7 @@ def errors(aggregate: rc.Aggregate) -> list[dict[str, float | str]]:
     bonds = rc.jkr_bonds(aggregate, MATERIAL)
     exact = _table(aggregate, rc.StokesianDynamics(reference_order(len(aggregate)), solver=DenseCholesky()), bonds)
     tables = {name: _table(aggregate, model, bonds) for name, model in MODELS.items()}
-    each = exact
-    while each is not None:
-        if each.order in ORDERS:
-            tables[f"order {each.order}"] = each
-        each = each.coarser
+    tables |= {f"order {each.order}": each for each in exact.by_order if each.order in ORDERS}
     return [{"model": name, **_compared(table, exact, bonds)} for name, table in sorted(tables.items())]
 
 

@@ -27,7 +27,7 @@ class Rate(NamedTuple):
     """Rate of breakage at one dissipation, and its interval from resampling whole seeds."""
 
     dissipation: float
-    measured: rc.BreakageRate
+    measured: rc.EventRate
     interval: Interval
     overloaded: float
 

@@ -39,7 +39,7 @@ def rate_rows(ensemble: Ensemble) -> list[Row]:
             "rate_high": each.interval[1],
             "poisson_low": each.measured.interval[0],
             "poisson_high": each.measured.interval[1],
-            "failures": each.measured.failures,
+            "failures": each.measured.events,
             "overloaded_at_start": each.overloaded,
             "local_exponent": exponent,
         }
@@ -196,7 +196,7 @@ def kernel(found: Sequence[Ensemble]) -> dict[str, NDArray[np.float64]]:
                     ensemble.spheres,
                     RADIUS * ensemble.mean("gyration"),
                     dissipation,
-                    rc.poisson_rate(each.measured.failures, time),
+                    rc.poisson_rate(each.measured.events, time),
                     critical,
                     rc.fragment_distribution(np.stack([shares, 1 - shares], axis=1), bins=1),  # moments need no bins
                 )

@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, Literal
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from rheoclast import _checks
 from rheoclast._checks import FloatArray, IntArray
-from rheoclast.breakup.contact_response import contact_response
+from rheoclast.breakup.contact_response import refuse_without_strain
 from rheoclast.breakup.crack import Rule, break_up
 from rheoclast.breakup.event import Breakup
-from rheoclast.breakup.orientation import SOUGHT
+from rheoclast.breakup.orientation import Orientation, flow_met
 from rheoclast.flows import LinearFlow
 from rheoclast.hydrodynamics.response import RigidResponse, rigid_response
 from rheoclast.mechanics.bonds import Bonds
@@ -22,9 +23,7 @@ from rheoclast.mechanics.criteria.criterion import Criterion
 from rheoclast.mechanics.criteria.load_ratios import EVERY_LIMIT
 from rheoclast.particles.aggregate import Aggregate
 from rheoclast.particles.morphology import mean_coordination, radius_of_gyration, relative_shape_anisotropy
-from rheoclast.stokes.mobility import Progress
-
-Orientation = Literal["given", "worst", "orbit"]
+from rheoclast.progress import Progress
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,12 +113,14 @@ def _row(number: int, piece: Piece) -> dict[str, Any]:
     }
 
 
+@_checks.instances
 def cascade(
     aggregate: Aggregate,
     response: RigidResponse,
     bonds: Bonds,
     flow: LinearFlow,
-    orientation: Orientation = "given",
+    *,
+    orientation: Orientation | Any = "given",
     rule: Rule = "weakest",
     criterion: Criterion = EVERY_LIMIT,
     progress: Progress | None = None,
@@ -135,9 +136,9 @@ def cascade(
     flow
         At the rate that the aggregate meets; contacts that would fail at higher rates hold.
     orientation
-        "given": every fragment keeps the orientation that it had. "worst": every piece meets the flow in its worst
-        orientation for tension, as if there were time to find it. "orbit": each turns freely, from the orientation of
-        the beginning on, and meets the flow in the worst orientation along its orbit.
+        As in `flow_met`. "given", or a rotation: every fragment keeps the orientation that it had. "worst": every piece
+        meets the flow in its worst orientation for tension, as if there were time to find it. "orbit": each turns
+        freely, from the orientation of the beginning on, and meets the flow in the worst orientation along its orbit.
     rule, criterion
         As in `break_up`.
     progress
@@ -145,27 +146,21 @@ def cascade(
 
     Raises
     ------
-    ValueError
+    ValueError, GeometryError, TypeError, ArithmeticError
         If the orientation is not known, or as `break_up`.
     """
-    _checks.instance("response", response, RigidResponse, "for instance rigid_response(aggregate.spheres, ...)")
-    known = ("given", *SOUGHT)
-    if orientation not in known:
-        raise ValueError(f"orientation: expected one of {', '.join(map(repr, known))}, got {orientation!r}")
+    refuse_without_strain(flow)
     pieces: list[Piece] = []
     waiting = deque([_Waiting(None, 0, aggregate, np.arange(len(aggregate)), bonds, response)])
     settled = 0
     while waiting:
         each = waiting.popleft()
-        breakup = None
-        if each.response is not None:
-            turned = _met(each, flow, orientation, criterion)
-            breakup = break_up(each.aggregate, each.response, each.bonds, turned, rule, criterion, up_to=flow.rate)
+        breakup = each.breakup(flow, orientation, rule, criterion)
         pieces.append(Piece(each.parent, each.generation, each.aggregate, each.spheres, breakup))
-        if pieces[-1].holds:
+        if breakup is None or not breakup.failures:
             settled += len(each.aggregate)
         else:
-            waiting.extend(_fragments(each, breakup, len(pieces) - 1))
+            waiting.extend(each.fragments(breakup, len(pieces) - 1))
         if progress:
             progress("breaking", settled / len(aggregate))
     return Cascade(tuple(pieces), flow)
@@ -173,38 +168,34 @@ def cascade(
 
 @dataclass(frozen=True, eq=False)
 class _Waiting:
-    """A piece to which nothing has happened yet; a single sphere needs no response."""
+    """A piece to which nothing has happened yet, with the hydrodynamics of what it comes from."""
 
     parent: int | None
     generation: int
     aggregate: Aggregate
     spheres: IntArray
     bonds: Bonds
-    response: RigidResponse | None
+    before: RigidResponse
 
+    @cached_property
+    def response(self) -> RigidResponse:
+        """The hydrodynamics of the piece by itself; that of before if it lost contacts only."""
+        if len(self.aggregate) == len(self.before.spheres):
+            return self.before
+        return rigid_response(self.aggregate.spheres, self.before.model, self.before.viscosity)
 
-def _fragments(before: _Waiting, breakup: Breakup | None, position: int) -> Iterator[_Waiting]:
-    assert breakup is not None
-    for fragment, spheres, contacts in zip(breakup.fragments, breakup.spheres, breakup.contacts, strict=True):
-        response = _response(fragment, before)
-        inside = before.spheres[spheres]
-        yield _Waiting(position, before.generation + 1, fragment, inside, before.bonds.chosen(contacts), response)
+    def breakup(
+        self, flow: LinearFlow, orientation: Orientation | Any, rule: Rule, criterion: Criterion
+    ) -> Breakup | None:
+        """What happens to it up to the rate of the flow; nothing to a single sphere."""
+        if len(self.aggregate) == 1:
+            return None
+        whole = (self.aggregate, self.response, self.bonds)
+        met = flow_met(*whole, flow, orientation=orientation, criterion=criterion)
+        return break_up(*whole, met, rule=rule, criterion=criterion, up_to=flow.rate)
 
-
-def _response(fragment: Aggregate, before: _Waiting) -> RigidResponse | None:
-    """The hydrodynamics of a fragment by itself; that of before if it lost contacts only."""
-    assert before.response is not None
-    if len(fragment) == 1:
-        return None
-    if len(fragment) == len(before.aggregate):
-        return before.response
-    return rigid_response(fragment.spheres, before.response.model, before.response.viscosity)
-
-
-def _met(piece: _Waiting, flow: LinearFlow, orientation: Orientation, criterion: Criterion) -> LinearFlow:
-    """The flow as a piece meets it."""
-    assert piece.response is not None
-    if orientation == "given":
-        return flow
-    table = contact_response(piece.aggregate, piece.response, piece.bonds)
-    return SOUGHT[orientation](piece.response, table, piece.bonds, flow, criterion).flow
+    def fragments(self, breakup: Breakup, position: int) -> Iterator[_Waiting]:
+        """Its parts, whose parent has a position among the pieces."""
+        for fragment, spheres, contacts in zip(breakup.fragments, breakup.spheres, breakup.contacts, strict=True):
+            bonds, inside = self.bonds.chosen(contacts), self.spheres[spheres]
+            yield _Waiting(position, self.generation + 1, fragment, inside, bonds, self.response)

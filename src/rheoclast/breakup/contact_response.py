@@ -40,9 +40,16 @@ class ContactResponse:
     coarser: ContactResponse | None = None
 
     def __post_init__(self) -> None:
-        for name in ("normals", "force", "moment"):
-            array = getattr(self, name)
-            object.__setattr__(self, name, _checks.real_array(name, array, array.shape))
+        normals = _checks.real_array("normals", self.normals, ("C", 3))
+        force, moment = (
+            _checks.real_array(name, getattr(self, name), (len(normals), 3, 5)) for name in ("force", "moment")
+        )
+        _checks.set_fields(self, normals=normals, force=force, moment=moment)
+
+    @property
+    def by_order(self) -> tuple[ContactResponse, ...]:
+        """The same at all orders that were solved, the lowest first and this one last."""
+        return (*(self.coarser.by_order if self.coarser else ()), self)
 
     @property
     def map(self) -> FloatArray:
@@ -83,8 +90,9 @@ class ContactResponse:
         return own @ principal.T
 
 
+@_checks.instances
 def contact_response(aggregate: Aggregate, response: RigidResponse, bonds: Bonds | None = None) -> ContactResponse:
-    """Solve the structure for the five strain components.
+    """Contact loads of an aggregate in every linear flow: the structure solved for the five strain components.
 
     Parameters
     ----------
@@ -101,19 +109,20 @@ def contact_response(aggregate: Aggregate, response: RigidResponse, bonds: Bonds
         If the response belongs to other spheres.
     ValueError
         As `contact_loads`.
+    TypeError
+        If an argument is something else.
     """
     refuse_other_spheres(aggregate.spheres, response)
-    unit = [each.strain_loads for each in response.by_order]
-    batch = SphereLoads(
-        np.stack([each.force for each in unit]),
-        np.stack([each.torque for each in unit]),
-        max(each.rounding for each in unit),
-    )
-    carried = contact_loads(aggregate, batch, bonds)
+    unit = SphereLoads.stacked([each.strain_loads for each in response.by_order])
+    carried = contact_loads(aggregate, unit, bonds)
+    force, moment = (np.moveaxis(part, 1, -1) for part in (carried.force, carried.moment))
     table = None
-    for each, force, moment in zip(response.by_order, carried.force, carried.moment, strict=True):
-        table = ContactResponse(
-            carried.normals, force.transpose(1, 2, 0), moment.transpose(1, 2, 0), each.order, coarser=table
-        )
-    assert table is not None
-    return table
+    for k, each in enumerate(response.by_order[:-1]):
+        table = ContactResponse(carried.normals, force[k], moment[k], each.order, table)
+    return ContactResponse(carried.normals, force[-1], moment[-1], response.order, table)
+
+
+def refuse_without_strain(flow: LinearFlow) -> None:
+    """Refuse a flow that loads no contact, at whatever rate."""
+    if not flow.magnitude > 0:
+        raise ValueError("flow: expected a strain rate that is not zero, got none; a rotation loads no contact")

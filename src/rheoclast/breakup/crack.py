@@ -16,6 +16,7 @@ import numpy as np
 
 from rheoclast import _checks
 from rheoclast._checks import FloatArray, IntArray
+from rheoclast.breakup.contact_response import refuse_without_strain
 from rheoclast.breakup.event import Breakup, Failure
 from rheoclast.flows import LinearFlow
 from rheoclast.frames.removal import CollapseError
@@ -35,11 +36,13 @@ NEGLIGIBLE = 1e-8  # of the largest load ratio that the contacts left had at fir
 ORDERS_COMPARED = 3
 
 
+@_checks.instances
 def break_up(
     aggregate: Aggregate,
     response: RigidResponse,
     bonds: Bonds,
     flow: LinearFlow,
+    *,
     rule: Rule = "weakest",
     criterion: Criterion = EVERY_LIMIT,
     up_to: float = np.inf,
@@ -55,8 +58,8 @@ def break_up(
     bonds
         Stiffness and strength of the contacts.
     flow
-        Only its kind and orientation matter. For the worst orientation pass `worst_initiation(...).flow`, for the worst
-        along the aggregate's own rotation `orbit_initiation(...).flow`.
+        Only its kind and orientation matter. For the worst orientation, and the worst along the aggregate's own
+        rotation, see `flow_met`.
     rule
         "weakest": contacts fail one at a time, the most overloaded first. "overloaded": all whose load reaches their
         strength at the rate that is reached fail at once.
@@ -79,30 +82,40 @@ def break_up(
     ArithmeticError
         If the aggregate becomes so slender (thousands of spheres in line) that balance is not reached.
     """
-    return next(break_up_each(aggregate, response, bonds, [flow], rule, criterion, up_to))
+    return next(break_up_each(aggregate, response, bonds, [flow], rule=rule, criterion=criterion, up_to=up_to))
 
 
+@_checks.instances
 def break_up_each(
     aggregate: Aggregate,
     response: RigidResponse,
     bonds: Bonds,
     flows: Iterable[LinearFlow],
+    *,
     rule: Rule = "weakest",
     criterion: Criterion = EVERY_LIMIT,
     up_to: float = np.inf,
 ) -> Iterator[Breakup]:
     """`break_up` in every one of several flows or orientations, one after the other; the contacts are assembled once.
 
-    For all orientations alike pass ``flow.rotated(each) for each in random_orientations(100, seed=1)``.
+    Parameters
+    ----------
+    aggregate, response, bonds, rule, criterion, up_to
+        As in `break_up`.
+    flows
+        Taken one by one, each when its event is asked for. For all orientations alike pass
+        ``flow.rotated(each) for each in random_orientations(100, seed=1)``.
+
+    Raises
+    ------
+    ValueError, GeometryError, TypeError, ArithmeticError
+        As `break_up`; what does not depend on the flow is refused at once.
     """
     if rule not in ("weakest", "overloaded"):
         raise ValueError(f"rule: expected 'weakest' or 'overloaded', got {rule!r}")
-    _checks.instance("aggregate", aggregate, Aggregate, "for instance Aggregate.touching(spheres)")
-    _checks.instance("bonds", bonds, Bonds, "for instance jkr_bonds(aggregate, material)")
-    _checks.instance("criterion", criterion, Criterion, "for instance Tension()")
     refuse_other_spheres(aggregate.spheres, response)
     refuse_without_strength(bonds, criterion)
-    bonds.strength(len(aggregate.pairs))
+    bonds.refuse_other_count(len(aggregate.pairs))
     limit = up_to if up_to == np.inf else _checks.positive("up_to", up_to)
     intact = loosenable(aggregate, bonds)
     places = np.stack([place(aggregate, aggregate.contact_points) for place in (radial_position, depth)], axis=1)
@@ -125,14 +138,14 @@ class _Setting:
 
     def ratios(self, state: LoosenedAggregate) -> FloatArray:
         """Load over strength (orders, C, criteria), zero where the contact is lost."""
-        return load_ratios(state.loads, self.bonds, self.criterion)
+        return load_ratios(state.loads, self.bonds, criterion=self.criterion)
 
 
 def _event(setting: _Setting, response: RigidResponse, flow: LinearFlow) -> Breakup:
-    _checks.instance("flow", flow, LinearFlow, "for instance simple_shear(1e5)")
-    if not np.linalg.norm(flow.strain_rate) > 0:
-        raise ValueError("flow: expected a strain rate that is not zero, got none; a rotation loads no contact")
-    state = setting.intact.loaded(_loads_by_order(response, flow))
+    _checks.instance("flow", flow, LinearFlow)
+    refuse_without_strain(flow)
+    orders = [order.loads(flow) for order in response.by_order[-ORDERS_COMPARED:]]
+    state = setting.intact.loaded(SphereLoads.stacked(orders))
     failures: list[Failure] = []
     ratios = setting.ratios(state)
     reached, intact = 0.0, np.abs(ratios[-1]).max(axis=1)
@@ -142,22 +155,12 @@ def _event(setting: _Setting, response: RigidResponse, flow: LinearFlow) -> Brea
             return _breakup(setting.aggregate, failures, np.zeros(len(setting.aggregate), np.intp))
         reached = max(reached, flow.rate / float(largest.max()))
         failing = _failing(largest, reached / flow.rate, setting.rule)
-        failures += [_failure(setting, contact, ratios, flow.rate, reached) for contact in failing.tolist()]
+        failures += [_failure(setting, contact, failing, ratios, flow.rate, reached) for contact in failing]
         try:
             state = state.without(failing)
         except CollapseError as collapse:
             return _breakup(setting.aggregate, failures, collapse.parts)
         ratios = setting.ratios(state)
-
-
-def _loads_by_order(response: RigidResponse, flow: LinearFlow) -> SphereLoads:
-    """Loads (orders, N, 3) of the last orders that were solved, the finest last."""
-    each = [order.loads(flow) for order in response.by_order[-ORDERS_COMPARED:]]
-    return SphereLoads(
-        np.stack([loads.force for loads in each]),
-        np.stack([loads.torque for loads in each]),
-        max(loads.rounding for loads in each),
-    )
 
 
 def _failing(largest: FloatArray, reached: float, rule: Rule) -> IntArray:
@@ -168,21 +171,22 @@ def _failing(largest: FloatArray, reached: float, rule: Rule) -> IntArray:
     return order[: int(np.count_nonzero(largest * reached >= 1 - ROUNDING))]
 
 
-def _failure(setting: _Setting, contact: int, ratios: FloatArray, rate: float, reached: float) -> Failure:
-    """The failure of a contact at load ratios (orders, C, criteria)."""
+def _failure(
+    setting: _Setting, contact: int, failing: IntArray, ratios: FloatArray, rate: float, reached: float
+) -> Failure:
+    """The failure of a contact, one of those that fail at once, at load ratios (orders, C, criteria)."""
     own = float(ratios[-1, contact].max())
-    others = np.flatnonzero(ratios[-1].max(axis=1) > 0)
-    others = others[others != contact]
+    others = np.setdiff1d(np.flatnonzero(ratios[-1].max(axis=1) > 0), failing)
     lead = ratios[:, contact].max(axis=1)[:, None] - ratios[:, others].max(axis=2)
     first, second = setting.aggregate.pairs[contact].tolist()
     radial, below = setting.places[contact].tolist()
     return Failure(
-        contact=contact,
+        contact=int(contact),
         pair=(first, second),
         rate=rate / own,
         reached=reached,
-        criterion=setting.criterion.parts[int(ratios[-1, contact].argmax())].name,
-        margin=max(0.0, float(lead[-1].min(initial=own)) / own),
+        criterion=setting.criterion.part_names[int(ratios[-1, contact].argmax())],
+        margin=float(lead[-1].min(initial=own)) / own,
         rivals=_rivals(others, lead / own, setting.order),
         radial_position=radial,
         depth=below,

@@ -31,12 +31,14 @@ class Failure:
     reached
         Rate of the flow, 1/s, when it failed: the largest `rate` so far.
     criterion
-        `Criterion.name` of the criterion that was met.
+        One of `Criterion.part_names`, that which was met.
     margin
-        By how much the load ratio of the next contact is smaller, as a share of this one's.
+        By how much the load ratio of the next contact is smaller, as a share of this one's; of the next that holds,
+        where several fail at once.
     rivals
-        Contacts that may have failed instead, as their load ratio is smaller by less than the expected error of the
-        difference from the multipole order. None where the hydrodynamics has no lower order to compare with.
+        Contacts that hold in this step but may have failed instead, as their load ratio is smaller by less than the
+        expected error of the difference from the multipole order. None where the hydrodynamics has no lower order to
+        compare with.
     radial_position
         Distance of the contact point from the centre of mass over the radius of gyration.
     depth

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from rheoclast import _checks
 from rheoclast._checks import FloatArray, IntArray
 from rheoclast.breakup.contact_response import ContactResponse
+from rheoclast.breakup.ratio_response import RatioResponse
 from rheoclast.breakup.trajectory_loads import INSTANTS_AT_ONCE, TrajectoryLoads
 from rheoclast.hydrodynamics.trajectory import Trajectory
 from rheoclast.mechanics.bonds import Bonds
@@ -19,14 +20,14 @@ from rheoclast.mechanics.criteria.load_ratios import EVERY_LIMIT
 
 SAMPLES = 40  # per inverse size of the velocity gradient; the load turns by at most some degrees in between
 MOST_SAMPLES = 10**8
-REFINEMENT = 1e-8  # of the time between samples: the square root of rounding, to which a maximum can be told
-
+INSIDE = 9  # instants inside a span that is narrowed to the two parts next to the best of them
+NARROWINGS = 12  # of a span of two samples to 1e-8 of it: the square root of rounding, to which a peak can be told
 ROOT = 1e-12  # of the time between samples
 
 
 @dataclass(frozen=True)
 class FirstFailure:
-    """The first time in s at which a contact fails, its index, and the `Criterion.name` that it fails by."""
+    """The first time in s at which a contact fails, its index, and which of `LoadHistory.criteria` it fails by."""
 
     time: float
     contact: int
@@ -35,7 +36,7 @@ class FirstFailure:
 
 @dataclass(frozen=True)
 class LargestLoad:
-    """A load ratio, the time in s at which it is reached, and by which contact and `Criterion.name`."""
+    """A load ratio, the time in s at which it is reached, and by which contact and of `LoadHistory.criteria`."""
 
     time: float
     ratio: float
@@ -54,6 +55,10 @@ class Exceedances:
 @dataclass(frozen=True, eq=False)
 class LoadHistory:
     """Largest load ratio over all contacts and criteria, along a trajectory. Made by `load_history`.
+
+    All that it tells is told of its samples, so that some load reaches a level if and only if `maximum` does. A level
+    is a load over strength: 1 where contacts fail as they are, 1/2 where they would if they were half as strong, or the
+    liquid twice as viscous, at the same motion.
 
     Attributes
     ----------
@@ -86,19 +91,24 @@ class LoadHistory:
         """Time from the first sample to the last, s."""
         return float(self.times[-1] - self.times[0])
 
-    def first_failure(self, scale: float = 1.0) -> FirstFailure | None:
-        """First time at which the load ratio times `scale` reaches one; None if it does not.
+    @property
+    def maximum(self) -> LargestLoad:
+        """The largest load of all samples."""
+        best = int(self.largest.argmax())
+        criterion = self.criteria[self.criterion[best]]
+        return LargestLoad(float(self.times[best]), float(self.largest[best]), int(self.contact[best]), criterion)
 
-        A scale above one stands for a more viscous liquid, or weaker contacts, at the same motion. Between two samples
-        the time is found to rounding; an excursion that begins and ends between two samples is not seen.
+    def first_failure(self, level: float = 1.0) -> FirstFailure | None:
+        """First time at which a load ratio reaches a level; None if none does.
+
+        Between the sample before and the first at or above the level, the time is found to rounding.
 
         Raises
         ------
         ValueError
-            If the scale is not positive.
+            If the level is not positive.
         """
-        level = 1 / _checks.positive("scale", scale)
-        failing = self.largest >= level
+        failing = self.largest >= _checks.positive("level", level)
         if not failing.any():
             return None
         first = int(failing.argmax())
@@ -106,12 +116,12 @@ class LoadHistory:
         _, contact, criterion = self.loads.largest(np.array([time]))
         return FirstFailure(time, int(contact[0]), self.criteria[criterion[0]])
 
-    def peaks(self, threshold: float) -> IntArray:
-        """Positions (P,) of the largest sample of every excursion to the threshold or above, in the order of time.
+    def peaks(self, level: float) -> IntArray:
+        """Positions (P,) of the largest sample of every excursion to a level or above, in the order of time.
 
         ``history.times[peaks]`` and ``history.largest[peaks]`` are where and how large the peaks over threshold are.
         """
-        above = self.largest >= float(_checks.real_array("threshold", threshold, ()))
+        above = self.largest >= float(_checks.real_array("level", level, ()))
         bounds = np.flatnonzero(np.diff(above, prepend=False, append=False))
         pairs = bounds.reshape(-1, 2).tolist()
         return np.array([start + self.largest[start:end].argmax() for start, end in pairs], dtype=np.intp)
@@ -126,23 +136,6 @@ class LoadHistory:
         share = np.where(crossing, higher / np.where(crossing, change, 1.0), start >= 0)
         return Exceedances(upwards, float(share @ np.diff(self.times)))
 
-    @cached_property
-    def maximum(self) -> LargestLoad:
-        """The largest load, refined between the samples next to the largest one."""
-        from scipy.optimize import minimize_scalar
-
-        best = int(self.largest.argmax())
-        before, after = self.times[[max(best - 1, 0), min(best + 1, len(self.times) - 1)]]
-        refined = minimize_scalar(
-            lambda time: -self.loads.largest_at(time),
-            bounds=(before, after),
-            method="bounded",
-            options={"xatol": REFINEMENT * (after - before)},
-        )
-        time = float(refined.x if -refined.fun > self.largest[best] else self.times[best])
-        ratio, contact, criterion = self.loads.largest(np.array([time]))
-        return LargestLoad(time, float(ratio[0]), int(contact[0]), self.criteria[criterion[0]])
-
     def _crossing(self, sample: int, level: float) -> float:
         """Time at which the ratio reaches a level that it is below before a sample and not at the sample."""
         from scipy.optimize import brentq
@@ -156,10 +149,12 @@ class LoadHistory:
         return float(brentq(excess, before, after, xtol=ROOT * (after - before)))
 
 
+@_checks.instances
 def load_history(
     trajectory: Trajectory,
     table: ContactResponse,
     bonds: Bonds,
+    *,
     times: ArrayLike | None = None,
     criterion: Criterion = EVERY_LIMIT,
 ) -> LoadHistory:
@@ -172,9 +167,10 @@ def load_history(
     bonds
         Strength of the contacts.
     times
-        Increasing times (T,) in s, two or more, within the span of the trajectory. By default the steps of the
-        trajectory, which end wherever the gradients have a sample, each divided evenly until a part lasts at most 1/40
-        of 1/(Γ:Γ)^½, Γ the velocity gradient: 40 samples per inverse shear rate in simple shear.
+        Increasing times (T,) in s, two or more, within the span of the trajectory, which are then the samples: a peak
+        between two of them is not seen. By default the steps of the trajectory, which end wherever the gradients have a
+        sample, each divided evenly until a part lasts at most 1/40 of 1/(Γ:Γ)^½, Γ the velocity gradient: 40 samples
+        per inverse shear rate in simple shear. In addition the top of every peak that is higher than all before it.
     criterion
         When a contact fails. By default each load has its own limit, and strengths that are infinite do not count.
 
@@ -186,10 +182,59 @@ def load_history(
         If no contact has a strength, the bonds have another number of contacts, the times do not increase or lie
         outside the trajectory, or the default would be more than 10⁸ times.
     """
-    loads = TrajectoryLoads(trajectory, table, bonds, criterion)
+    loads = TrajectoryLoads(trajectory, RatioResponse(table, bonds, criterion))
     instants = _resolved(trajectory) if times is None else _increasing(times)
-    largest, contact, part = map(_checks.frozen, loads.largest(instants))
-    return LoadHistory(_checks.frozen(instants), largest, contact, part, loads)
+    samples = _Samples(instants, *loads.largest(instants))
+    if times is None:
+        samples = _with_record_peaks(loads, samples)
+    at, largest, contact, part = map(_checks.frozen, samples)
+    return LoadHistory(at, largest, contact, part, loads)
+
+
+class _Samples(NamedTuple):
+    """Times, load ratios, contacts and criteria, (T,) each."""
+
+    times: FloatArray
+    largest: FloatArray
+    contact: IntArray
+    criterion: IntArray
+
+
+def _with_record_peaks(loads: TrajectoryLoads, samples: _Samples) -> _Samples:
+    """The samples and, between them, the tops of the peaks that are higher than all before."""
+    near = _record_peaks(samples.times, samples.largest)
+    tops = _tops(loads, samples.times, near)
+    new = _Samples(tops, *loads.largest(tops))
+    higher = new.largest > samples.largest[near]
+    places = np.searchsorted(samples.times, tops[higher])
+    return _Samples(*(np.insert(old, places, each[higher]) for old, each in zip(samples, new, strict=True)))
+
+
+def _record_peaks(times: FloatArray, largest: FloatArray) -> IntArray:
+    """Positions (P,) of samples no lower than their neighbours, near which the load may be larger than ever before.
+
+    The parabola through such a sample and its neighbours rises above it by at most 1/8 of its second derivative times
+    the square of the wider spacing. Four times as much is allowed for, and any rise at the ends.
+    """
+    spacing, rise = np.diff(times), np.diff(largest)
+    top = np.append(True, rise > 0) & np.append(rise <= 0, True)
+    bend = np.abs(np.diff(rise / spacing)) / (spacing[1:] + spacing[:-1])  # half the second derivative
+    beyond = np.full(len(times), np.inf)
+    beyond[1:-1] = bend * np.maximum(spacing[1:], spacing[:-1]) ** 2
+    return np.flatnonzero(top & (largest + beyond >= np.maximum.accumulate(largest)))
+
+
+def _tops(loads: TrajectoryLoads, times: FloatArray, near: IntArray) -> FloatArray:
+    """Times (P,) of the largest loads between the neighbours of samples at positions (P,)."""
+    start, end = times[np.maximum(near - 1, 0)], times[np.minimum(near + 1, len(times) - 1)]
+    best = times[near]
+    for _ in range(NARROWINGS):
+        part = (end - start) / (INSIDE + 1)
+        instants = start[:, None] + part[:, None] * np.arange(1, INSIDE + 1)
+        largest = loads.largest(instants.ravel())[0].reshape(instants.shape)
+        best = np.take_along_axis(instants, largest.argmax(axis=1)[:, None], axis=1)[:, 0]
+        start, end = best - part, best + part
+    return best
 
 
 def _increasing(times: ArrayLike) -> FloatArray:

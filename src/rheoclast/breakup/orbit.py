@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from rheoclast.breakup.contact_response import ContactResponse
-from rheoclast.breakup.initiation import Initiation
+from rheoclast import _checks
+from rheoclast.breakup.contact_response import ContactResponse, refuse_without_strain
+from rheoclast.breakup.initiation import UNTURNED, Initiation
 from rheoclast.breakup.load_history import load_history
 from rheoclast.flows import LinearFlow
 from rheoclast.hydrodynamics.response import RigidResponse
@@ -39,13 +40,15 @@ class OrbitInitiation(Initiation):
     trajectory: Trajectory
 
 
+@_checks.instances
 def orbit_initiation(
     response: RigidResponse,
     table: ContactResponse,
     bonds: Bonds,
     flow: LinearFlow,
-    start: Any = None,
+    *,
     duration: float | None = None,
+    start: Any = None,
     criterion: Criterion = EVERY_LIMIT,
 ) -> OrbitInitiation:
     """First failure along the aggregate's own rotation in a steady flow.
@@ -58,10 +61,10 @@ def orbit_initiation(
         Strength of the contacts.
     flow
         In lab axes.
-    start
-        First orientation, a rotation from body to lab axes; by default the axes coincide.
     duration
         Length of the orbit in s; by default 200 over the flow's magnitude, a dozen turns of an open aggregate in shear.
+    start
+        First orientation, a rotation from body to lab axes; by default the axes coincide.
     criterion
         When a contact fails.
 
@@ -69,12 +72,14 @@ def orbit_initiation(
     ------
     ValueError
         If the flow has no strain, no contact has a strength, or as `trajectory`.
+    TypeError
+        If an argument is something else.
     """
-    if not flow.magnitude > 0:
-        raise ValueError("flow: expected a strain rate that is not zero, got none; a rotation loads no contact")
-    orbit = trajectory(response, flow, LONG / flow.magnitude if duration is None else duration, start)
+    refuse_without_strain(flow)
+    length = LONG / flow.magnitude if duration is None else duration
+    orbit = trajectory(response, flow, duration=length, start=start)
     worst = load_history(orbit, table, bonds, criterion=criterion).maximum
     if not worst.ratio > 0:
-        return OrbitInitiation(None, None, np.inf, flow, 0.0, orbit)
-    critical = orbit.flow(worst.time).scaled(1 / worst.ratio)
-    return OrbitInitiation(worst.contact, worst.criterion, critical.rate, critical, worst.time, orbit)
+        return OrbitInitiation(None, None, np.inf, flow, UNTURNED, 0.0, orbit)
+    critical, rotation = orbit.flow(worst.time).scaled(1 / worst.ratio), _checks.frozen(orbit.rotation(worst.time).T)
+    return OrbitInitiation(worst.contact, worst.criterion, critical.rate, critical, rotation, worst.time, orbit)

@@ -31,16 +31,15 @@ BREAKUP = pa.struct(
 
 def breakup_columns(setting: Setting, flows: Flows) -> Iterator[dict[str, Any]]:
     """Columns of `BREAKUP`, flow by flow, with one row per orientation."""
-    for name, given in flows.named.items():
-        flow, rotations = flows.turned(given, setting)
+    for name, flow in flows.named.items():
         broken = break_up_each(
             setting.aggregate,
             setting.response,
             setting.bonds,
-            (flow.rotated(each) for each in rotations),
-            setting.rule,
-            setting.criterion,
-            flows.up_to,
+            (flow.rotated(each) for each in flows.turns(flow, setting)),
+            rule=setting.rule,
+            criterion=setting.criterion,
+            up_to=flows.up_to,
         )
         rows = [{"flow": name, "orientation": k, **_breakup_row(each)} for k, each in enumerate(broken)]
         yield {key: [row[key] for row in rows] for key in BREAKUP.names}

@@ -1,27 +1,15 @@
-"""What the keys of a campaign may number, and the usual refusals."""
+"""What the keys of a campaign may number, and that they do not repeat themselves."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterable
+from collections.abc import Iterable
 from typing import Annotated, Any
 
 from msgspec import Meta
 
 NATURAL = Annotated[int, Meta(ge=0)]
 COUNTING = Annotated[int, Meta(ge=1)]
-
-
-def one_of(key: str, choices: Collection[str], name: str) -> None:
-    """Refuse a name that is none of the choices for a key.
-
-    Raises
-    ------
-    ValueError
-        With the key and the choices.
-    """
-    if name not in choices:
-        raise ValueError(f"{key}: expected one of {', '.join(choices)}, got {name!r}")
 
 
 def refuse_repeated(key: str, values: Iterable[Any]) -> None:

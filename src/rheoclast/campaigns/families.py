@@ -11,8 +11,8 @@ from typing import Annotated, Any, get_origin
 import msgspec
 from msgspec import Meta
 
-from rheoclast.campaigns.choices import one_of
 from rheoclast.generation.families import FAMILIES
+from rheoclast.names import one_of
 
 SIZE, RADIUS, SEED = "count", "radius", "seed"
 

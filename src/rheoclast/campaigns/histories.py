@@ -17,10 +17,11 @@ import numpy as np
 from msgspec import Meta, Struct
 
 from rheoclast import _checks
-from rheoclast.campaigns.choices import COUNTING, one_of, refuse_repeated
+from rheoclast.campaigns.choices import COUNTING, refuse_repeated
 from rheoclast.flows import TRACE_TOLERANCE
 from rheoclast.histories import GradientHistory
 from rheoclast.io.histories import read_histories
+from rheoclast.names import one_of
 from rheoclast.turbulence import TURBULENCE_MODELS, kolmogorov_time
 
 CAMPAIGNS_KEPT = 2

@@ -71,7 +71,7 @@ def orbits(
     paths = histories.drawn(history_seed)
     starts = random_orientations(len(paths), orientation_seed)
     turning = {
-        number: trajectory(response, path, histories.duration, start)
+        number: trajectory(response, path, duration=histories.duration, start=start)
         for (number, path), start in zip(paths.items(), starts, strict=True)
     }
     return Orbits(turning, histories.kolmogorov_times(viscosity), histories.fragments)
@@ -81,7 +81,8 @@ def history_columns(setting: Setting, along: Orbits) -> Iterator[dict[str, Any]]
     """Columns of `HISTORY`, history by history, with one row per dissipation."""
     passages = list(_passages(setting, along))
     flows = [passage.flow for passage in passages if passage.flow is not None] if along.fragments else []
-    broken = break_up_each(setting.aggregate, setting.response, setting.bonds, flows, setting.rule, setting.criterion)
+    whole = (setting.aggregate, setting.response, setting.bonds)
+    broken = break_up_each(*whole, flows, rule=setting.rule, criterion=setting.criterion)
     rows = []
     for passage in passages:
         row = _row(passage)
@@ -97,7 +98,7 @@ def _passages(setting: Setting, along: Orbits) -> Iterator[_Passage]:
         loads = load_history(orbit, setting.table, setting.bonds, criterion=setting.criterion)
         start, end = orbit.times[[0, -1]].tolist()
         for dissipation, unit in along.kolmogorov_times.items():
-            failure = loads.first_failure(1 / unit)
+            failure = loads.first_failure(level=unit)
             until = end if failure is None else failure.time
             flow = None if failure is None else orbit.flow(failure.time)
             largest = loads.maximum.ratio / unit

@@ -14,11 +14,11 @@ import pyarrow.parquet as pq
 
 from rheoclast import _checks
 from rheoclast.campaigns import cluster, local_pool
-from rheoclast.campaigns.choices import one_of
 from rheoclast.campaigns.request import Campaign
 from rheoclast.campaigns.store import Store
 from rheoclast.campaigns.task import Task, failed, perform
 from rheoclast.campaigns.worker import WorkerLost
+from rheoclast.names import one_of
 
 Progress = Callable[[int, int], None]
 

@@ -61,12 +61,11 @@ class Flows:
     rotations: FloatArray | None
     up_to: float
 
-    def turned(self, flow: LinearFlow, setting: Setting) -> tuple[LinearFlow, FloatArray]:
-        """A flow, and the rotations (n, 3, 3) by which an aggregate meets it turned."""
+    def turns(self, flow: LinearFlow, setting: Setting) -> FloatArray:
+        """Rotations (n, 3, 3) by which an aggregate meets a flow turned."""
         if self.rotations is not None:
-            return flow, self.rotations
-        worst = worst_initiation(setting.table, setting.bonds, flow).flow
-        return worst.scaled(flow.rate / worst.rate), np.eye(3)[None]
+            return self.rotations
+        return worst_initiation(setting.table, setting.bonds, flow).rotation[None]
 
 
 @dataclass(frozen=True, eq=False)

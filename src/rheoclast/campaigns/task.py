@@ -104,7 +104,7 @@ def perform(task: Task) -> pa.Table:
     """
     materials = task.conditions.contact_materials
     with _one_thread(), warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # what a campaign may be warned of, it is when it is read
+        warnings.simplefilter("ignore", UserWarning)  # of what is asked for, which was said when the campaign was read
         try:
             aggregate, conditions = task.grown(), task.conditions
             response = rigid_response(aggregate.spheres, conditions.hydrodynamics.chosen(), conditions.viscosity)
@@ -138,7 +138,7 @@ def _material_table(
         "order": response.order,
     }
     try:
-        bonds = material.law().bonds(aggregate)
+        bonds = material.contact_law().bonds(aggregate)
         criterion = task.conditions.failure_criterion(material)
         setting = Setting(aggregate, response, bonds, criterion, cast(Rule, task.conditions.rule))
         events = EVENTS[task.conditions.event].rows(setting, met)

@@ -16,7 +16,7 @@ from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.contact_loads import ContactLoads
 from rheoclast.mechanics.laws.law import ContactLaw
 from rheoclast.particles.aggregate import Aggregate
-from rheoclast.stokes.mobility import Progress
+from rheoclast.progress import Progress
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,9 @@ from rheoclast.breakup.cascade import Cascade, cascade
 from rheoclast.breakup.contact_response import ContactResponse, contact_response
 from rheoclast.breakup.crack import Rule, break_up
 from rheoclast.breakup.event import Breakup, Failure
-from rheoclast.breakup.orientation import SOUGHT
+from rheoclast.breakup.initiation import initiation
+from rheoclast.breakup.orientation import flow_met
+from rheoclast.breakup.truncation import rate_error
 from rheoclast.cli.analysis import Analysis
 from rheoclast.cli.results import finished_together
 from rheoclast.cli.tables import contact_table, sphere_table
@@ -29,7 +31,7 @@ from rheoclast.mechanics.criteria.load_ratios import load_ratios
 from rheoclast.particles.aggregate import Aggregate
 from rheoclast.particles.morphology import mean_coordination, radius_of_gyration, relative_shape_anisotropy
 from rheoclast.populations.orientations import random_orientations
-from rheoclast.stokes.mobility import Progress
+from rheoclast.progress import Progress
 
 FILES = (
     "summary.json",
@@ -74,10 +76,10 @@ class Setting:
 
     def broken(self, seed: int, up_to: float) -> Broken:
         """The breakup in the chosen orientation."""
-        flow = self._met(seed)
-        flow = flow.scaled(self.flow.magnitude / flow.magnitude) if self.flow.magnitude else flow
-        common = (self.aggregate, self.response, self.bonds, flow, self.rule, self.criterion)
-        breakup = break_up(*common, up_to=up_to)
+        orientation = random_orientations(1, seed)[0] if self.orientation == "random" else self.orientation
+        whole = (self.aggregate, self.response, self.bonds)
+        flow = flow_met(*whole, self.flow, orientation=orientation, criterion=self.criterion, table=self._table)
+        breakup = break_up(*whole, flow, rule=self.rule, criterion=self.criterion, up_to=up_to)
         return Broken(breakup, flow, self._intact(breakup, flow), self.criterion)
 
     def _intact(self, breakup: Breakup, flow: LinearFlow) -> Analysis:
@@ -88,20 +90,13 @@ class Setting:
     def _table(self) -> ContactResponse:
         return contact_response(self.aggregate, self.response, self.bonds)
 
-    def _met(self, seed: int) -> LinearFlow:
-        """The flow as the aggregate meets it."""
-        if self.orientation == "given":
-            return self.flow
-        if self.orientation == "random":
-            return self.flow.rotated(random_orientations(1, seed)[0])
-        return SOUGHT[self.orientation](self.response, self._table, self.bonds, self.flow, self.criterion).flow
-
     def cascade(self, flow: LinearFlow, progress: Progress) -> Cascade:
         """What becomes of the fragments at the rate of the flow; from a random orientation on, as that turned out."""
-        common = (self.aggregate, self.response, self.bonds)
-        if self.orientation == "random":
-            return cascade(*common, flow, "given", self.rule, self.criterion, progress)
-        return cascade(*common, self.flow, self.orientation, self.rule, self.criterion, progress)
+        met, orientation = (flow, "given") if self.orientation == "random" else (self.flow, self.orientation)
+        whole = (self.aggregate, self.response, self.bonds)
+        return cascade(
+            *whole, met, orientation=orientation, rule=self.rule, criterion=self.criterion, progress=progress
+        )
 
 
 def breakup_summary(setting: Setting, broken: Broken, pieces: Cascade | None) -> dict[str, Any]:
@@ -141,12 +136,11 @@ def _finite(value: float) -> float | None:
 
 
 def _initiation_error(broken: Broken) -> float | None:
-    """Expected relative error of the initiation rate from truncation: that of the tension that breaks the contact."""
-    failures, error = broken.breakup.failures, broken.intact.truncation
-    if not failures or failures[0].criterion != "tension" or error is None:
+    """Expected relative error of the initiation rate from truncation; none where nothing fails or it is not known."""
+    if not broken.breakup.failures:
         return None
-    first = failures[0].contact
-    return float(error.tension[first] / broken.intact.contact_loads.tension[first])
+    table, bonds = broken.intact.table, broken.intact.bonds
+    return rate_error(table, bonds, initiation(table, bonds, broken.flow, criterion=broken.criterion))
 
 
 def _near_ties(breakup: Breakup) -> int | None:
@@ -184,7 +178,7 @@ def _write_fragment(folder: Path, name: str, fragment: Aggregate) -> None:
 def intact_table(broken: Broken) -> dict[str, Any]:
     """Columns with one row per contact before any has failed; `load_ratio` is that of the criterion in use."""
     intact = broken.intact
-    ratios = load_ratios(intact.contact_loads, intact.bonds, broken.criterion)
+    ratios = load_ratios(intact.contact_loads, intact.bonds, criterion=broken.criterion)
     return contact_table(intact, Units()) | {"load_ratio": ratios.max(axis=-1)}
 
 

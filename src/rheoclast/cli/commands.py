@@ -20,6 +20,7 @@ from rheoclast.cli.console import INTERRUPTED, plain_speech, progress_bar, scree
 from rheoclast.cli.generation import generate
 from rheoclast.cli.presentation import show_shape, show_stress
 from rheoclast.cli.reporting import report_command
+from rheoclast.cli.signatures import grouped
 from rheoclast.cli.survey import survey_command
 from rheoclast.cli.tables import shape_summary, stress_summary
 from rheoclast.cli.units import Units
@@ -28,7 +29,6 @@ from rheoclast.hydrodynamics.response import rigid_response
 from rheoclast.hydrodynamics.stokesian_dynamics import StokesianDynamics
 from rheoclast.mechanics.laws.jkr import JKR
 from rheoclast.mechanics.material import MATERIALS
-from rheoclast.particles.contacts import CONTACT_TOLERANCE
 from rheoclast.report import write_report
 
 app = typer.Typer(no_args_is_help=True, pretty_exceptions_enable=False, rich_markup_mode="rich")
@@ -60,31 +60,21 @@ def rheoclast_command(
     ] = False,
     debug: Annotated[bool, typer.Option("--debug", help="Show the traceback of an error; goes anywhere.")] = False,
 ) -> None:
-    """Flow-induced stresses and breakup of rigid colloidal aggregates."""
+    """Flow-induced stresses and breakup of rigid colloidal aggregates.
+
+    [bold]Example:[/bold] rheoclast demo
+    """
 
 
 @app.command()
+@grouped
 def stress(
-    file: options.File,
-    unit: options.Unit = "m",
-    file_format: options.Format = None,
-    radius: options.Radius = None,
-    tolerance: options.Tolerance = CONTACT_TOLERANCE,
-    overlap_tolerance: options.OverlapTolerance = CONTACT_TOLERANCE,
-    contacts: options.Contacts = None,
-    flow: options.FlowName = options.Flow.shear,
-    rate: options.Rate = None,
-    gradient: options.Gradient = None,
+    *,
+    source: options.AggregateFile,
+    flow: options.FlowChoice,
     viscosity: options.Viscosity = 1e-3,
-    model: options.ModelName = options.Model.stokesian,
-    order: options.Order = "2",
-    accuracy: options.Accuracy = 0.02,
-    material: options.MaterialName = "polystyrene",
-    youngs_modulus: options.YoungsModulus = None,
-    poisson_ratio: options.PoissonRatio = None,
-    work_of_adhesion: options.WorkOfAdhesion = None,
-    pull_off: options.PullOff = None,
-    stiffness: options.Stiffness = None,
+    model: options.ModelChoice,
+    contacts: options.ContactChoice,
     output: options.Output = None,
     overwrite: options.Overwrite = False,
     as_json: options.Json = False,
@@ -96,25 +86,12 @@ def stress(
     """
     if output is not None:
         results.prepare(output, overwrite)
-    chosen_flow = options.chosen_flow(flow, rate, gradient)
-    law = options.chosen_law(
-        options.chosen_material(material, youngs_modulus, poisson_ratio, work_of_adhesion), pull_off, stiffness
-    )
-    aggregate = files.read(
-        file,
-        options.length_unit(unit),
-        format=file_format,
-        radius=radius,
-        tolerance=tolerance,
-        overlap_tolerance=overlap_tolerance,
-        contacts=contacts,
-    )
-    chosen_model = options.chosen_model(model, order, accuracy)
-    tell_memory(len(aggregate), chosen_model.memory(len(aggregate)))
+    undisturbed, law, solved = flow.made(), contacts.made(), model.made()
+    aggregate = source.read()
+    tell_memory(len(aggregate), solved.memory(len(aggregate)))
     with progress_bar() as progress:
-        analysis = analyse(aggregate, chosen_flow, chosen_model, viscosity, law, progress)
-    name = "gradient" if gradient else flow.value
-    _report(str(file), name, analysis, output, as_json=as_json, dimensionless=dimensionless)
+        analysis = analyse(aggregate, undisturbed, solved, viscosity, law, progress)
+    _report(str(source.file), flow.name, analysis, output, as_json=as_json, dimensionless=dimensionless)
 
 
 def _report(
@@ -136,17 +113,11 @@ def _report(
 
 
 @app.command()
+@grouped
 def info(
-    file: options.File,
-    unit: options.Unit = "m",
-    file_format: options.Format = None,
-    radius: options.Radius = None,
-    tolerance: options.Tolerance = CONTACT_TOLERANCE,
-    overlap_tolerance: options.OverlapTolerance = CONTACT_TOLERANCE,
-    contacts: options.Contacts = None,
-    model: options.ModelName = options.Model.stokesian,
-    order: options.Order = "2",
-    accuracy: options.Accuracy = 0.02,
+    *,
+    source: options.AggregateFile,
+    model: options.ModelChoice,
     as_json: options.Json = False,
     dimensionless: options.Dimensionless = False,
 ) -> None:
@@ -154,31 +125,23 @@ def info(
 
     [bold]Example:[/bold] rheoclast info floc.dat --unit nm
     """
-    aggregate = files.read(
-        file,
-        options.length_unit(unit),
-        format=file_format,
-        radius=radius,
-        tolerance=tolerance,
-        overlap_tolerance=overlap_tolerance,
-        contacts=contacts,
-    )
+    solved = model.made()
+    aggregate = source.read()
     length, name = (float(aggregate.spheres.radii.mean()), "a") if dimensionless else (1.0, "m")
-    chosen_model = options.chosen_model(model, order, accuracy)
-    tell_memory(len(aggregate), chosen_model.memory(len(aggregate)))
+    tell_memory(len(aggregate), solved.memory(len(aggregate)))
     with progress_bar() as progress:
         # A response with unit viscosity: neither measure depends on the viscosity.
-        response = rigid_response(aggregate.spheres, chosen_model, 1.0, progress)
+        response = rigid_response(aggregate.spheres, solved, 1.0, progress)
     summary = {
         **shape_summary(aggregate, length),
         "hydrodynamic_radius": response.hydrodynamic_radius / length,
         "intrinsic_viscosity": response.intrinsic_viscosity,
     }
     if as_json:
-        named = {"rheoclast": rheoclast.__version__, "file": str(file)}
+        named = {"rheoclast": rheoclast.__version__, "file": str(source.file)}
         typer.echo(results.json_text({**named, **summary, "units": {"length": name}}))
     else:
-        show_shape(str(file), summary, name)
+        show_shape(str(source.file), summary, name)
 
 
 app.command("break")(break_command)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 
 import typer
@@ -12,44 +12,62 @@ from rich.console import Console
 from rich.markup import escape
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
+from rheoclast.cli.speech import of_usage, spoken
+
+PROGRAM = "rheoclast"
 SECONDS_WITHOUT_PROGRESS = 2.0
 WORTH_TELLING = 1e9  # bytes
 INTERRUPTED = 130  # exit status
 
 REFUSALS = (ValueError, TypeError, OSError, ArithmeticError, MemoryError, ImportError)
-UsageProblem: type[typer.BadParameter] = typer.BadParameter.__mro__[2]  # the exception of all wrong options
+UsageProblem: type[typer.BadParameter] = typer.BadParameter.__mro__[2]  # of all wrong options
 
 screen = Console(highlight=False)
 messages = Console(stderr=True, highlight=False)
 
 
 @contextmanager
-def plain_speech(debug: bool) -> Iterator[None]:
-    """Turn errors of the input into one line and exit status 1, and warnings into one line each, unless debugging."""
-    with warnings.catch_warnings(record=not debug) as caught:
+def plain_speech(options: Collection[str], debug: bool) -> Iterator[None]:
+    """Turn errors of the input into one line and exit status 1, and warnings into one line each, unless debugging.
+
+    The lines speak of the options of the command, given by their names.
+    """
+    with warnings.catch_warnings():
         warnings.simplefilter("always", UserWarning)
         if not debug:
             warnings.simplefilter("ignore", RuntimeWarning)  # of NumPy; what overflows is refused
+            warnings.showwarning = _told_once(options)
         try:
             yield
         except REFUSALS as error:
             if debug:
                 raise
-            messages.print(f"[red]error:[/red] {_one_line(error)}", soft_wrap=True)
+            _tell("[red]error:[/red]", spoken(error, options))
             raise SystemExit(1) from None
         except UsageProblem as problem:
-            messages.print(f"[red]error:[/red] {_one_line(problem.format_message())}", soft_wrap=True)
+            command = problem.ctx.command_path if problem.ctx else PROGRAM
+            _tell("[red]error:[/red]", of_usage(problem.format_message(), command))
             raise SystemExit(2) from None
         except (KeyboardInterrupt, typer.Abort):
             messages.print("interrupted; nothing was written", soft_wrap=True)
             raise SystemExit(INTERRUPTED) from None
-        finally:
-            for text in dict.fromkeys(_one_line(warning.message) for warning in caught or ()):
-                messages.print(f"[yellow]warning:[/yellow] {text}", soft_wrap=True)
 
 
-def _one_line(message: object) -> str:
-    return escape(" ".join(str(message).split()))
+def _told_once(options: Collection[str]) -> Callable[..., None]:
+    """What takes the place of `warnings.showwarning`: each warning on one line, before the results."""
+    told = set()
+
+    def show(message: Warning | str, *_: object, **__: object) -> None:
+        text = spoken(message, options)
+        if text not in told:
+            told.add(text)
+            _tell("[yellow]warning:[/yellow]", text)
+
+    return show
+
+
+def _tell(kind: str, text: str) -> None:
+    messages.print(f"{kind} {escape(text)}", soft_wrap=True)
 
 
 def tell_memory(count: int, memory: float) -> None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
-from inspect import Parameter, Signature, signature
+from inspect import Parameter, cleandoc, signature
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -13,6 +14,7 @@ from rheoclast import io as files
 from rheoclast.cli import options
 from rheoclast.cli.console import screen
 from rheoclast.cli.presentation import show_shape
+from rheoclast.cli.signatures import with_parameters
 from rheoclast.cli.tables import shape_summary
 from rheoclast.generation.families import FAMILIES, Family
 from rheoclast.generation.lattices import LATTICES
@@ -44,6 +46,7 @@ HELP = {
     "coordination": "Mean number of contacts of a sphere.",
     "amount": "Share of the way from the tree (0) to the packing (1).",
 }
+"""Help on parameters by name, in one line; on others it is what the docstring of the family says of them."""
 
 EXAMPLES = {
     "bent-chain": "20 --bend 0.2",
@@ -54,6 +57,7 @@ EXAMPLES = {
     "thinned-fcc-ball": "200 4",
     "compacted-cluster": "200 --amount 0.5",
 }
+"""Arguments of an example, for families that need more than a number of spheres."""
 
 generate = typer.Typer(no_args_is_help=True, rich_markup_mode="rich")
 
@@ -66,7 +70,7 @@ def about() -> None:
     """
 
 
-def _command(name: str, family: Family) -> Callable[..., None]:
+def command_of(name: str, family: Family) -> Callable[..., None]:
     """The command of a family: it takes the family's parameters, and where to write."""
 
     def command(
@@ -95,10 +99,8 @@ def _command(name: str, family: Family) -> Callable[..., None]:
     purpose = (family.__doc__ or "").splitlines()[0].replace("`", "")
     command.__doc__ = f"{purpose}\n\n[bold]Example:[/bold] {example}"
     own = [each for each in signature(command, eval_str=True).parameters.values() if each.name != "parameters"]
-    taken = [_parameter(each) for each in signature(family, eval_str=True).parameters.values()]
-    command.__signature__ = Signature([*taken, *own])  # type: ignore[attr-defined]
-    command.__annotations__ = {each.name: each.annotation for each in (*taken, *own)}
-    return command
+    taken = [_parameter(family, each) for each in signature(family, eval_str=True).parameters.values()]
+    return with_parameters(command, [*taken, *own])
 
 
 def _contact_file(path: Path, aggregate: Aggregate, overwrite: bool) -> Path | None:
@@ -110,15 +112,22 @@ def _contact_file(path: Path, aggregate: Aggregate, overwrite: bool) -> Path | N
     return contacts
 
 
-def _parameter(given: Parameter) -> Parameter:
+def _parameter(family: Family, given: Parameter) -> Parameter:
     """A parameter of a family as an argument of the command, if it stands first and has no default, or as an option."""
     required = given.default is Parameter.empty
     kind = typer.Argument if required and given.kind is not Parameter.KEYWORD_ONLY else typer.Option
-    annotation: Any = given.annotation
     default = RADIUS if given.name == "radius" else given.default
-    described = Annotated[annotation, kind(help=HELP[given.name])]
+    help_text = HELP.get(given.name) or documented(family, given.name)
+    annotation: Any = given.annotation
+    described = Annotated[annotation, kind(help=help_text)]
     return Parameter(given.name, Parameter.KEYWORD_ONLY, default=default, annotation=described)
 
 
+def documented(family: Family, name: str) -> str:
+    """What the docstring of a family says of a parameter, under its heading in the manner of NumPy."""
+    found = re.search(rf"^{name}(?: : .*)?\n((?:    .*\n?)+)", cleandoc(family.__doc__ or ""), re.M)
+    return " ".join(found[1].replace("`", "").split()) if found else ""
+
+
 for _name, _family in FAMILIES.items():
-    generate.command(_name)(_command(_name, _family))
+    generate.command(_name)(command_of(_name, _family))

@@ -1,202 +1,163 @@
-"""The options that commands share, and the values made from them."""
+"""The options of the commands, in groups that several of them share, and the values made from them."""
 
 from __future__ import annotations
 
-from enum import StrEnum
+from collections.abc import Collection
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any, Literal
 
 import numpy as np
 import typer
 
+from rheoclast import _checks, io, names
+from rheoclast.breakup.crack import Rule
+from rheoclast.cli.breakup import Orientation
 from rheoclast.flows import LinearFlow
-from rheoclast.hydrodynamics.exposed_area import ExposedArea
-from rheoclast.hydrodynamics.free_draining import FreeDraining
 from rheoclast.hydrodynamics.model import HydrodynamicModel
-from rheoclast.hydrodynamics.stokesian_dynamics import StokesianDynamics
 from rheoclast.mechanics.criteria.criterion import Criterion
-from rheoclast.mechanics.laws.jkr import JKR
 from rheoclast.mechanics.laws.law import ContactLaw
-from rheoclast.mechanics.laws.measured_pull_off import MeasuredPullOff
-from rheoclast.mechanics.laws.uniform import Uniform
-from rheoclast.mechanics.material import MATERIALS, Material
-from rheoclast.names import CRITERIA, FLOWS
+from rheoclast.mechanics.material import MATERIALS
+from rheoclast.particles.aggregate import Aggregate
+from rheoclast.particles.contacts import CONTACT_TOLERANCE
+
+AGGREGATE, FLOW, LIQUID = "Aggregate", "Flow", "Liquid and model"
+BONDS, BREAKUP, OUTPUT = "Contacts", "Breakup", "Output"
+
+FLAG = " "
+"""In place of a kind of value, which a flag does not take."""
+
+PROPERTIES = {
+    "youngs_modulus": "youngs_modulus_Pa",
+    "poisson_ratio": "poisson_ratio",
+    "work_of_adhesion": "work_of_adhesion_J_m2",
+}
+"""Properties of a material, and their names in a summary."""
 
 
-class Flow(StrEnum):
-    """Flows by name."""
-
-    shear = "shear"
-    uniaxial = "uniaxial"
-    biaxial = "biaxial"
-    planar = "planar"
-
-
-class Model(StrEnum):
-    """Hydrodynamic models by name."""
-
-    stokesian = "stokesian"
-    free_draining = "free-draining"
-    exposed_area = "exposed-area"
+def _choice(option: str, choices: Collection[str], help_text: str, panel: str) -> Any:
+    """An option whose value is one of some names, which stand for `{}` in its help and which the shell completes."""
+    return typer.Option(
+        option,
+        metavar="<name>",
+        help=help_text.format(", ".join(choices)),
+        autocompletion=lambda: list(choices),
+        rich_help_panel=panel,
+    )
 
 
-class CriterionChoice(StrEnum):
-    """Criteria by name."""
-
-    every_limit = "every-limit"
-    tension = "tension"
-    sliding = "sliding"
-    rolling = "rolling"
-    twisting = "twisting"
-    combined = "combined"
+def _number(help_text: str, panel: str) -> Any:
+    """An option whose value is a number; there is no default to be shown where it is none."""
+    return typer.Option(metavar="<number>", parser=number, help=help_text, rich_help_panel=panel)
 
 
-class RuleChoice(StrEnum):
-    """Rules of failure."""
-
-    weakest = "weakest"
-    overloaded = "overloaded"
+def _flag(option: str, help_text: str, panel: str) -> Any:
+    """An option that is there or not."""
+    return typer.Option(option, metavar=FLAG, help=help_text, rich_help_panel=panel)
 
 
-class OrientationChoice(StrEnum):
-    """How an aggregate meets the flow."""
+def folder(given: str) -> Path:
+    """The folder of a name.
 
-    given = "given"
-    worst = "worst"
-    orbit = "orbit"
-    random = "random"
+    Raises
+    ------
+    typer.BadParameter
+        If the name is empty.
+    """
+    if not str(given).strip():
+        raise typer.BadParameter("expected the name of a folder, got nothing; a point stands for the current one")
+    return Path(given)
 
 
-AGGREGATE, FLOW, LIQUID, BONDS, OUTPUT = "Aggregate", "Flow", "Liquid and model", "Contacts", "Output"
-BREAKUP = "Breakup"
-
-File = Annotated[
-    Path, typer.Argument(help="Spheres: text (x y z r), CSV, XYZ, LAMMPS dump or data.", show_default=False)
-]
-Unit = Annotated[
-    str,
-    typer.Option(help="Unit of length in the file: m, mm, um, nm, or a number in metres.", rich_help_panel=AGGREGATE),
-]
 Format = Annotated[
     str | None,
     typer.Option(
         "--format",
+        metavar="<name>",
         help="text, csv, xyz, lammps-dump or lammps-data; by default from the file.",
         rich_help_panel=AGGREGATE,
     ),
 ]
-Radius = Annotated[
-    float | None,
-    typer.Option(help="Radius of all spheres if the file has none, in its unit.", rich_help_panel=AGGREGATE),
-]
-Tolerance = Annotated[
-    float, typer.Option(help="Largest gap that counts as touching, in mean radii.", rich_help_panel=AGGREGATE)
-]
-OverlapTolerance = Annotated[
-    float, typer.Option(help="Largest overlap that counts as touching, in mean radii.", rich_help_panel=AGGREGATE)
-]
-Contacts = Annotated[
-    Path | None,
-    typer.Option(
-        help="Table with columns i and j, the spheres in contact; by default all that touch.",
-        rich_help_panel=AGGREGATE,
-        show_default=False,
-    ),
-]
-FlowName = Annotated[Flow, typer.Option("--flow", help="Kind of flow.", rich_help_panel=FLOW)]
-Rate = Annotated[
-    float | None,
-    typer.Option(help="Shear or extension rate, 1/s; by default 1.", rich_help_panel=FLOW, show_default=False),
-]
-Gradient = Annotated[
+FormatToWrite = Annotated[
     str | None,
     typer.Option(
-        help="Any velocity gradient instead: nine numbers in 1/s, row by row.", rich_help_panel=FLOW, show_default=False
-    ),
-]
-Viscosity = Annotated[float, typer.Option(help="Viscosity of the liquid, Pa s.", rich_help_panel=LIQUID)]
-ModelName = Annotated[Model, typer.Option("--model", help="Hydrodynamic model.", rich_help_panel=LIQUID)]
-Order = Annotated[
-    str, typer.Option(help="Multipole order (2 is force-torque-stresslet), or auto.", rich_help_panel=LIQUID)
-]
-Accuracy = Annotated[
-    float, typer.Option(help="With --order auto: largest error of the loads, as a share.", rich_help_panel=LIQUID)
-]
-MaterialName = Annotated[
-    str, typer.Option("--material", help=f"One of: {', '.join(MATERIALS)}.", rich_help_panel=BONDS)
-]
-YoungsModulus = Annotated[float | None, typer.Option(help="In Pa, instead of the material's.", rich_help_panel=BONDS)]
-PoissonRatio = Annotated[float | None, typer.Option(help="Instead of the material's.", rich_help_panel=BONDS)]
-WorkOfAdhesion = Annotated[
-    float | None, typer.Option(help="In J/m², instead of the material's.", rich_help_panel=BONDS)
-]
-PullOff = Annotated[
-    float | None, typer.Option(help="Pull-off force of every contact in N, instead of JKR's.", rich_help_panel=BONDS)
-]
-Stiffness = Annotated[
-    tuple[float, float, float, float] | None,
-    typer.Option(
-        help="Explicit normal and tangential (N/m), bending and twisting (N m/rad) stiffness; needs --pull-off.",
-        rich_help_panel=BONDS,
-        show_default=False,
-    ),
-]
-Friction = Annotated[
-    float | None,
-    typer.Option(help="Coefficient of friction: limits shear and twisting too.", rich_help_panel=BONDS),
-]
-RollingDistance = Annotated[
-    float | None,
-    typer.Option(
-        help="Distance in m by which a contact rolls before it yields: limits bending too.", rich_help_panel=BONDS
-    ),
-]
-CriterionName = Annotated[
-    CriterionChoice, typer.Option("--criterion", help="When a contact fails.", rich_help_panel=BREAKUP)
-]
-RuleName = Annotated[
-    RuleChoice,
-    typer.Option("--rule", help="The weakest contact fails first, or all overloaded at once.", rich_help_panel=BREAKUP),
-]
-OrientationName = Annotated[
-    OrientationChoice,
-    typer.Option(
-        "--orientation",
-        help="As in the file, the worst for tension, the worst along the free rotation, or a random one.",
-        rich_help_panel=BREAKUP,
-    ),
-]
-Seed = Annotated[int, typer.Option(help="Of random orientations.", rich_help_panel=BREAKUP)]
-UpTo = Annotated[
-    float | None,
-    typer.Option(help="Rate in 1/s above which the flow is not raised.", rich_help_panel=BREAKUP, show_default=False),
-]
-WithCascade = Annotated[
-    bool,
-    typer.Option(
-        "--cascade", help="Break the fragments too, at the rate of the flow, until all hold.", rich_help_panel=BREAKUP
-    ),
-]
-Animation = Annotated[bool, typer.Option("--animation", help="Write crack.gif too.", rich_help_panel=OUTPUT)]
-Output = Annotated[
-    Path | None,
-    typer.Option(help="Folder for tables, geometry, pictures and summary.", rich_help_panel=OUTPUT, show_default=False),
-]
-Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace files that exist.", rich_help_panel=OUTPUT)]
-Json = Annotated[
-    bool, typer.Option("--json", help="Print the summary as JSON and nothing else.", rich_help_panel=OUTPUT)
-]
-Dimensionless = Annotated[
-    bool,
-    typer.Option(
-        "--dimensionless",
-        help="Results in units of mean radius a, viscosity μ and rate G: forces in μGa², moments in μGa³.",
+        "--format",
+        metavar="<name>",
+        help="text, csv, xyz, lammps-dump, lammps-data or vtp; by default from the name of the file.",
         rich_help_panel=OUTPUT,
     ),
 ]
+Viscosity = Annotated[float, _number("Viscosity of the liquid, Pa s.", LIQUID)]
+Animation = Annotated[bool, _flag("--animation", "Write crack.gif too.", OUTPUT)]
+Output = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="<folder>",
+        parser=folder,
+        help="Folder for tables, geometry, pictures and summary.",
+        rich_help_panel=OUTPUT,
+        show_default=False,
+    ),
+]
+Overwrite = Annotated[bool, _flag("--overwrite", "Replace files that exist.", OUTPUT)]
+Json = Annotated[bool, _flag("--json", "Print the summary as JSON and nothing else.", OUTPUT)]
+Dimensionless = Annotated[
+    bool,
+    _flag(
+        "--dimensionless",
+        "Results in units of mean radius a, viscosity μ and rate G: forces in μGa², moments in μGa³, rates of failure "
+        "in F/μa² with the mean pull-off force F.",
+        OUTPUT,
+    ),
+]
 
 
-def length_unit(text: str) -> str | float:
+@dataclass(frozen=True)
+class AggregateFile:
+    """Where an aggregate is read from."""
+
+    file: Annotated[
+        Path, typer.Argument(help="Spheres: text (x y z r), CSV, XYZ, LAMMPS dump or data.", show_default=False)
+    ]
+    unit: Annotated[
+        str,
+        typer.Option(
+            help="Unit of length in the file: m, mm, um, nm, or a number in metres.", rich_help_panel=AGGREGATE
+        ),
+    ] = "m"
+    file_format: Format = None
+    radius: Annotated[float | None, _number("Radius of all spheres if the file has none, in its unit.", AGGREGATE)] = (
+        None
+    )
+    tolerance: Annotated[float, _number("Largest gap that counts as touching, in mean radii.", AGGREGATE)] = (
+        CONTACT_TOLERANCE
+    )
+    overlap_tolerance: Annotated[
+        float, _number("Largest overlap that counts as touching, in mean radii.", AGGREGATE)
+    ] = CONTACT_TOLERANCE
+    contacts: Annotated[
+        Path | None,
+        typer.Option(
+            help="Table with columns i and j, the spheres in contact; by default all that touch.",
+            rich_help_panel=AGGREGATE,
+            show_default=False,
+        ),
+    ] = None
+
+    def read(self) -> Aggregate:
+        """The aggregate."""
+        return io.read(
+            self.file,
+            _length_unit(self.unit),
+            format=self.file_format,
+            radius=self.radius,
+            tolerance=self.tolerance,
+            overlap_tolerance=self.overlap_tolerance,
+            contacts=self.contacts,
+        )
+
+
+def _length_unit(text: str) -> str | float:
     """The unit of length as `read` takes it: a name or a number."""
     try:
         return float(text)
@@ -204,75 +165,157 @@ def length_unit(text: str) -> str | float:
         return text
 
 
-def chosen_flow(name: Flow, rate: float | None, gradient: str | None) -> LinearFlow:
-    """The flow by name and rate, or by its gradient."""
-    if gradient is None:
-        return FLOWS[name](1.0 if rate is None else rate)
-    if rate is not None:
-        raise ValueError("--rate: a flow given by its --gradient has no rate of its own; leave one of them out")
-    words = gradient.replace(",", " ").split()
-    try:
-        numbers = np.array([float(word) for word in words])
-    except ValueError:
-        raise ValueError(f"--gradient: expected nine numbers, got {gradient!r}") from None
-    if numbers.size != 9:
-        raise ValueError(f"--gradient: expected nine numbers, got {numbers.size}")
-    return LinearFlow(numbers.reshape(3, 3))
+@dataclass(frozen=True)
+class FlowChoice:
+    """A flow by name and rate, or by its gradient."""
+
+    flow: Annotated[str, _choice("--flow", names.FLOWS, "Kind of flow: {}.", FLOW)] = "shear"
+    rate: Annotated[float | None, _number("Shear or extension rate, 1/s; by default 1.", FLOW)] = None
+    gradient: Annotated[
+        str | None,
+        typer.Option(
+            metavar="<9 floats>",
+            help="Any velocity gradient instead: nine numbers in 1/s, row by row.",
+            rich_help_panel=FLOW,
+            show_default=False,
+        ),
+    ] = None
+
+    @property
+    def name(self) -> str:
+        """What the flow is called in results."""
+        return "gradient" if self.gradient else self.flow
+
+    @property
+    def has_rate(self) -> bool:
+        """Whether the rate is given, and not only the kind of flow."""
+        return self.rate is not None or self.gradient is not None
+
+    def made(self) -> LinearFlow:
+        """The flow."""
+        if self.gradient is None:
+            names.one_of("flow", names.FLOWS, self.flow)
+            return names.FLOWS[self.flow](1.0 if self.rate is None else self.rate)
+        if self.rate is not None:
+            raise ValueError("rate: a flow given by its --gradient has no rate of its own; leave one of them out")
+        words = self.gradient.replace(",", " ").split()
+        try:
+            numbers = np.array([float(word) for word in words])
+        except ValueError:
+            raise ValueError(f"gradient: expected nine numbers, got {self.gradient!r}") from None
+        if numbers.size != 9:
+            raise ValueError(f"gradient: expected nine numbers, got {numbers.size}")
+        return LinearFlow(numbers.reshape(3, 3))
 
 
-def chosen_model(name: Model, order: str, accuracy: float) -> HydrodynamicModel:
-    """The hydrodynamic model by name, with its order."""
-    if name is Model.free_draining:
-        return FreeDraining()
-    if name is Model.exposed_area:
-        return ExposedArea()
-    if order == "auto":
-        return StokesianDynamics("auto", accuracy)
-    try:
-        return StokesianDynamics(int(order))
-    except ValueError:
-        raise ValueError(f"--order: expected an integer of at least 1, or auto, got {order!r}") from None
+@dataclass(frozen=True)
+class ModelChoice:
+    """A hydrodynamic model by name, with its order."""
+
+    model: Annotated[str, _choice("--model", names.MODELS, "Hydrodynamic model: {}.", LIQUID)] = "stokesian"
+    order: Annotated[
+        str,
+        typer.Option(
+            metavar="<int>", help="Multipole order (2 is force-torque-stresslet), or auto.", rich_help_panel=LIQUID
+        ),
+    ] = "2"
+    accuracy: Annotated[float, _number("With --order auto: largest error of the loads, as a share.", LIQUID)] = 0.02
+
+    def made(self) -> HydrodynamicModel:
+        """The model."""
+        order: int | Literal["auto"] = "auto"
+        if self.order != "auto":
+            try:
+                order = int(self.order)
+            except ValueError:
+                raise ValueError(f"order: expected an integer of at least 1, or auto, got {self.order!r}") from None
+        return names.hydrodynamic_model(self.model, order, self.accuracy)
 
 
-def chosen_material(
-    name: str, youngs_modulus: float | None, poisson_ratio: float | None, work_of_adhesion: float | None
-) -> Material:
-    """A material by name, with the properties that are given instead of its own."""
-    if name not in MATERIALS:
-        raise ValueError(
-            f"--material: expected one of {', '.join(MATERIALS)}, got {name!r}; for another material add "
-            "--youngs-modulus, --poisson-ratio and --work-of-adhesion to one of these"
-        )
-    known = MATERIALS[name]
-    return Material(
-        known.youngs_modulus if youngs_modulus is None else youngs_modulus,
-        known.poisson_ratio if poisson_ratio is None else poisson_ratio,
-        known.work_of_adhesion if work_of_adhesion is None else work_of_adhesion,
+@dataclass(frozen=True)
+class ContactChoice:
+    """A material and a contact law by name, with the numbers that are given instead of theirs."""
+
+    material: Annotated[
+        str, _choice("--material", MATERIALS, "{}, or any other name with its three properties.", BONDS)
+    ] = "polystyrene"
+    youngs_modulus: Annotated[float | None, _number("In Pa, instead of the material's.", BONDS)] = None
+    poisson_ratio: Annotated[float | None, _number("Instead of the material's.", BONDS)] = None
+    work_of_adhesion: Annotated[float | None, _number("In J/m², instead of the material's.", BONDS)] = None
+    law: Annotated[str, _choice("--law", names.LAWS, "Contact law: {}.", BONDS)] = "jkr"
+    pull_off: Annotated[float | None, _number("Pull-off force of every contact in N, instead of the law's.", BONDS)] = (
+        None
     )
+    stiffness: Annotated[
+        tuple[float, float, float, float] | None,
+        typer.Option(
+            metavar="<4 floats>",
+            help="Explicit normal and tangential (N/m), bending and twisting (N m/rad) stiffness; needs --pull-off.",
+            rich_help_panel=BONDS,
+            show_default=False,
+        ),
+    ] = None
+
+    def made(self) -> ContactLaw:
+        """The law."""
+        return names.contact_law(**vars(self))
 
 
-def chosen_law(
-    material: Material,
-    pull_off: float | None,
-    stiffness: tuple[float, float, float, float] | None,
-    friction: float | None = None,
-    rolling_distance: float | None = None,
-) -> ContactLaw:
-    """JKR contacts of the material, or a measured pull-off force with JKR or explicit stiffness."""
-    if stiffness is not None:
-        if pull_off is None:
-            raise ValueError("--stiffness: explicit stiffness needs the strength too; add --pull-off")
-        if friction is not None or rolling_distance is not None:
-            raise ValueError("--friction, --rolling-distance: explicit stiffness has no law for them; leave one out")
-        return Uniform(*stiffness, tensile_strength=pull_off)
-    law = JKR(material, friction, rolling_distance)
-    return law if pull_off is None else MeasuredPullOff(pull_off, law)
+@dataclass(frozen=True)
+class LimitedContactChoice(ContactChoice):
+    """The same with limits to other loads than tension."""
+
+    friction: Annotated[float | None, _number("Coefficient of friction: limits shear and twisting too.", BONDS)] = None
+    rolling_distance: Annotated[
+        float | None, _number("Distance in m by which a contact rolls before it yields: limits bending too.", BONDS)
+    ] = None
 
 
-def chosen_criterion(name: CriterionChoice, friction: float | None, rolling_distance: float | None) -> Criterion:
-    """The criterion by name, if the contacts are given the limits that it needs."""
-    if name in (CriterionChoice.sliding, CriterionChoice.twisting) and friction is None:
-        raise ValueError(f"--criterion {name}: contacts need a limit; give --friction")
-    if name is CriterionChoice.rolling and rolling_distance is None:
-        raise ValueError(f"--criterion {name}: contacts need a limit; give --rolling-distance")
-    return CRITERIA[name](friction or 0.0)
+@dataclass(frozen=True)
+class BreakupChoice:
+    """How an aggregate meets the flow, and when its contacts fail."""
+
+    criterion: Annotated[str, _choice("--criterion", names.CRITERIA, "When a contact fails: {}.", BREAKUP)] = (
+        "every-limit"
+    )
+    rule: Annotated[
+        Rule,
+        typer.Option(
+            metavar="<name>",
+            parser=partial(one_of, get_args(Rule)),
+            autocompletion=lambda: list(get_args(Rule)),
+            help="weakest, one contact fails after the other; or overloaded, all at once that are.",
+            rich_help_panel=BREAKUP,
+        ),
+    ] = "weakest"
+    orientation: Annotated[
+        Orientation,
+        typer.Option(
+            metavar="<name>",
+            parser=partial(one_of, get_args(Orientation)),
+            autocompletion=lambda: list(get_args(Orientation)),
+            help="given, as in the file; worst, for tension; orbit, the worst along the free rotation; or random.",
+            rich_help_panel=BREAKUP,
+        ),
+    ] = "given"
+    seed: Annotated[int, typer.Option(help="Of random orientations.", rich_help_panel=BREAKUP)] = 0
+    up_to: Annotated[float | None, _number("Rate in 1/s above which the flow is not raised.", BREAKUP)] = None
+    with_cascade: Annotated[
+        bool,
+        typer.Option(
+            "--cascade",
+            help="Break the fragments too, at the rate of the flow, until all hold.",
+            rich_help_panel=BREAKUP,
+        ),
+    ] = False
+
+    @property
+    def limit(self) -> float:
+        """Rate in 1/s above which the flow is not raised; infinite if there is none."""
+        return np.inf if self.up_to is None else _checks.positive("up_to", self.up_to)
+
+    def failure_criterion(self, contacts: LimitedContactChoice) -> Criterion:
+        """The criterion, if the contacts have a limit for it."""
+        criterion = names.failure_criterion(self.criterion, contacts.friction)
+        names.refuse_unbreakable(self.criterion, contacts.material, contacts.made())
+        return criterion

@@ -13,16 +13,16 @@ from rheoclast.cli.console import screen
 
 def report_command(
     result: Annotated[
-        Path, typer.Argument(help="Folder that stress or break wrote with --output.", show_default=False)
+        Path, typer.Argument(help="Folder that stress, break or survey wrote with --output.", show_default=False)
     ],
     output: Annotated[
         Path | None, typer.Option(help="The page; by default report.html in the folder.", show_default=False)
     ] = None,
     overwrite: options.Overwrite = False,
 ) -> None:
-    """One page on the results of stress or break: summary, tables, charts, and the aggregate in 3-D.
+    """One page on the results of stress or break, with the aggregate in 3-D, or on a campaign of survey, done or not.
 
-    It is a single file that needs no network and opens in any browser.
+    It is a single file that needs no network and opens in any browser: key figures, charts, and tables that sort.
 
     [bold]Example:[/bold] rheoclast report results
     """

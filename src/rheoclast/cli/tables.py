@@ -8,6 +8,7 @@ import numpy as np
 
 from rheoclast._checks import FloatArray, IntArray
 from rheoclast.breakup.initiation import Initiation
+from rheoclast.breakup.truncation import rate_error
 from rheoclast.cli.analysis import Analysis
 from rheoclast.cli.units import Units
 from rheoclast.mechanics.criteria.load_ratios import load_ratios
@@ -165,17 +166,8 @@ def _failure(analysis: Analysis, first: Initiation, units: Units) -> dict[str, A
         "pair": aggregate.pairs[first.contact].tolist(),
         "criterion": first.criterion,
         "critical_rate": first.rate / units.rate,
-        "critical_rate_error": _error_of_rate(analysis, first),
+        "critical_rate_error": rate_error(analysis.table, analysis.bonds, first),
         "pull_off_force": float(strength) / units.force,
         "radial_position": float(radial_position(aggregate, aggregate.contact_points[first.contact])),
         "flow_gradient_per_s": first.flow.gradient.tolist(),
     }
-
-
-def _error_of_rate(analysis: Analysis, first: Initiation) -> float | None:
-    """Expected relative error of a critical rate from truncation: that of the tension of the contact that fails."""
-    if first.contact is None or first.criterion != "tension" or analysis.truncation is None:
-        return None
-    strength = analysis.bonds.strength(len(analysis.aggregate.pairs))[first.contact, 0]
-    share_of_rate = analysis.flow.magnitude / first.flow.magnitude
-    return float(analysis.truncation.tension[first.contact] / (share_of_rate * strength))

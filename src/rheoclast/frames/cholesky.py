@@ -40,7 +40,7 @@ class Front:
 
 @dataclass(frozen=True, eq=False)
 class FrontalCholesky:
-    """Factors of a symmetric positive definite matrix. Made by `frontal_cholesky`.
+    """Factors L Lᵀ of a symmetric positive definite matrix. Made by `frontal_cholesky`.
 
     Attributes
     ----------
@@ -53,18 +53,38 @@ class FrontalCholesky:
     order: IntArray
     fronts: tuple[Front, ...]
 
+    @property
+    def pivots(self) -> FloatArray:
+        """Squares (n,) of the diagonal of L, in the order of the unknowns."""
+        pivots = np.empty(len(self.order))
+        pivots[self.order] = np.concatenate([front.triangle.diagonal() for front in self.fronts]) ** 2
+        return pivots
+
     def solve(self, rhs: FloatArray, /) -> FloatArray:
         """Solution (n, K) for right-hand sides (n, K)."""
-        x = rhs[self.order]
-        with one_blas_thread():
-            for front in self.fronts:
-                x[front.own] = dtrsm(1.0, front.triangle, x[front.own], lower=1)
-                x[front.beyond] -= front.rectangle @ x[front.own]
-            for front in reversed(self.fronts):
-                rest = x[front.own] - front.rectangle.T @ x[front.beyond]
-                x[front.own] = dtrsm(1.0, front.triangle, rest, lower=1, trans_a=1)
-        solution = np.empty_like(x)
-        solution[self.order] = x
+        return self.backward(self.forward(rhs)[0])
+
+    def forward(self, rhs: FloatArray, /) -> tuple[FloatArray, list[slice]]:
+        """Half of a solution, y (n, K) with L y = b in the order of elimination, and the rows where it is not zero.
+
+        Right-hand sides b (n, K) that are zero in most places cost little.
+        """
+        y = rhs[self.order]
+        filled = []
+        for front in self.fronts:
+            if y[front.own].any():
+                y[front.own] = dtrsm(1.0, front.triangle, y[front.own], lower=1)
+                y[front.beyond] -= front.rectangle @ y[front.own]
+                filled.append(front.own)
+        return y, filled
+
+    def backward(self, half: FloatArray, /) -> FloatArray:
+        """The other half, x (n, K) with Lᵀ x = y, from y in the order of elimination, which is used up."""
+        for front in reversed(self.fronts):
+            rest = half[front.own] - front.rectangle.T @ half[front.beyond]
+            half[front.own] = dtrsm(1.0, front.triangle, rest, lower=1, trans_a=1)
+        solution = np.empty_like(half)
+        solution[self.order] = half
         return solution
 
 
@@ -96,7 +116,7 @@ def frontal_cholesky(matrix: bsr_array, part: IntArray) -> FrontalCholesky:
         fronts.append(front)
         if len(update.blocks):
             arriving.setdefault(int(part[update.blocks[0]]), []).append(update)
-    return FrontalCholesky(_unknowns(order, size), tuple(fronts))
+    return FrontalCholesky(unknowns(order, size), tuple(fronts))
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,9 +136,7 @@ def _eliminated(matrix: bsr_array, start: int, stop: int, arrived: list[_Update]
         if len(beyond):
             rectangle = dtrsm(1.0, triangle, rectangle, side=1, lower=1, trans_a=1, overwrite_b=1)
             update = dsyrk(-1.0, rectangle, beta=1.0, c=update, lower=1, overwrite_c=1)
-    return Front(slice(size * start, size * stop), _unknowns(beyond, size), triangle, rectangle), _Update(
-        beyond, update
-    )
+    return Front(slice(size * start, size * stop), unknowns(beyond, size), triangle, rectangle), _Update(beyond, update)
 
 
 def _assembled(
@@ -135,8 +153,8 @@ def _assembled(
     _as_blocks(rectangle, size)[np.searchsorted(beyond, columns[~inside]), :, rows[~inside]] = blocks[~inside]
     for each in arrived:
         split = int(np.searchsorted(each.blocks, stop))
-        low = _unknowns(each.blocks[:split] - start, size)
-        high = _unknowns(np.searchsorted(beyond, each.blocks[split:]), size)
+        low = unknowns(each.blocks[:split] - start, size)
+        high = unknowns(np.searchsorted(beyond, each.blocks[split:]), size)
         split *= size
         _add_lower(corner, low, each.matrix[:split, :split])
         _add(rectangle, high, low, each.matrix[split:, :split])
@@ -201,5 +219,6 @@ def _permuted(matrix: bsr_array, order: IntArray) -> bsr_array:
     return bsr_array((matrix.data[number.data - 1], number.indices, number.indptr), shape=matrix.shape)
 
 
-def _unknowns(blocks: IntArray, size: int) -> IntArray:
+def unknowns(blocks: IntArray, size: int) -> IntArray:
+    """Indices (size·B,) of the rows of some blocks (B,) of rows."""
     return (size * blocks[:, None] + np.arange(size)).ravel()

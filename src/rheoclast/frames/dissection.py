@@ -14,7 +14,7 @@ from scipy.sparse.csgraph import breadth_first_order, maximum_bipartite_matching
 
 from rheoclast._checks import FloatArray, IntArray
 
-LEAF = 16
+LEAF = 24  # nodes of a part that is cut no further: smaller fronts are slow to handle, larger ones fill
 WINDOW = 0.1  # a plane leaves between 0.4 and 0.6 of a part on either side
 
 

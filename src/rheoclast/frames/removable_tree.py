@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NoReturn
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from rheoclast import _checks
 from rheoclast._checks import FloatArray, IntArray
-from rheoclast.frames.removal import chosen_joints, refuse_parts
+from rheoclast.frames.joints import chosen_joints, parts_without
+from rheoclast.frames.removal import CollapseError
 from rheoclast.frames.statics import tree_loads
 
 
@@ -59,8 +61,8 @@ class LoadedTree:
         """What balance leaves unbalanced: nothing."""
         return 0.0
 
-    def without(self, joints: int | Sequence[int] | IntArray) -> LoadedTree:
-        """Never returns.
+    def without(self, joints: int | Sequence[int] | IntArray) -> NoReturn:
+        """Refused: without any joint a tree is in parts.
 
         Raises
         ------
@@ -70,5 +72,5 @@ class LoadedTree:
             If a joint does not exist or is given twice.
         """
         chosen = chosen_joints(joints, len(self.tree.pairs), self.removed)
-        refuse_parts(len(self.tree.nodes), self.tree.pairs, chosen, chosen)
-        raise AssertionError("a tree without a joint is in parts")
+        parts = parts_without(len(self.tree.nodes), self.tree.pairs, chosen, chosen)
+        raise CollapseError.into_parts(chosen, parts)

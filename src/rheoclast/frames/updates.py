@@ -13,7 +13,7 @@ the root of the dissection take part.
 1 − Yᵀ Y is the block of R in the redundancy matrix (von Scheven, Ramm & Bischoff, International Journal of Solids and
 Structures 213, 41, 2021). It has no unit, and its eigenvalues lie between 1, for a spring that the others make
 superfluous, and 0, for one without which the frame falls apart or moves without resistance. So it tells beforehand how
-many digits a removal costs, and a spring without stiffness is no special case.
+many digits a removal costs.
 """
 
 from __future__ import annotations
@@ -22,38 +22,30 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import LinAlgError, cholesky, solve_triangular
-from scipy.linalg.blas import dtrsm
-from scipy.sparse import bsr_array
 
 from rheoclast._checks import FloatArray, IntArray
-from rheoclast.frames.cholesky import FrontalCholesky, frontal_cholesky
+from rheoclast.frames.cholesky import FrontalCholesky, frontal_cholesky, unknowns
 from rheoclast.frames.springs import SpringFrame
 
 MOST_UPDATED = 64  # joints on one factorization; the updates of more cost as much as a new one
-LEAST_REDUNDANCY = 1e-9
-LEAST_PIVOT = 1e-14
+LEAST_REDUNDANCY = 1e-9  # an update divides by it: with less, refinement does not bring the digits back
+LEAST_PIVOT = 1e-14  # of what stood there before elimination: its rounding is a hundredth of that
 
 
 @dataclass(frozen=True, eq=False)
 class FactorizedFrame:
-    """A frame ready for loads and for removals. Made by `factorized_frame`.
+    """A frame ready for removals. Made by `factorized_frame`.
 
     Attributes
     ----------
     springs
-        E and the factors of K with node 0 held: scaled joint loads q from loads F.
+        The frame.
     factor
-        Those factors.
-    ends
-        (C, 12, 6) entries of E in the rows of each joint, and
-    places
-        (C, 12) the unknowns that they belong to, in the order of elimination; that of a node held comes last.
+        Factors of its stiffness, node 0 being held.
     """
 
     springs: SpringFrame
     factor: FrontalCholesky
-    ends: FloatArray
-    places: IntArray
 
     def intact(self) -> Removal:
         """No joint removed yet."""
@@ -64,7 +56,7 @@ class FactorizedFrame:
         count, added = 6 * len(removal.joints), 6 * len(joints)
         if count + added > 6 * MOST_UPDATED:
             return None
-        half, filled = self._half_solved(joints)
+        half, filled = self.factor.forward(self._elongations(joints))
         side = np.zeros((count, added))
         for rows in filled:
             side -= removal.columns.values[:count, rows] @ half[rows]
@@ -73,38 +65,27 @@ class FactorizedFrame:
             return None
         return Removal(np.concatenate([removal.joints, joints]), removal.columns.extended(count, half.T), triangle)
 
-    def scaled_loads(self, carried: FloatArray, removal: Removal) -> FloatArray:
-        """Scaled joint loads q' (6C, K) after a removal, from those before it."""
-        rows = unknowns(removal.joints)
-        parting = removal.parting(carried[rows])
-        scaled = carried + self._stress(removal.columns.values[: len(rows)].T @ parting)
-        scaled[rows] = 0.0
-        return scaled
+    def shared(self, scaled: FloatArray, removal: Removal) -> FloatArray:
+        """Scaled loads q' (6C, K) after a removal, from those before it."""
+        parting = removal.parting(scaled[removal.springs])
+        return removal.cleared(scaled + self._stretched(removal.rows.T @ parting))
 
-    def refined_loads(self, scaled: FloatArray, unbalanced: FloatArray, removal: Removal) -> FloatArray:
-        """Scaled joint loads q' after a removal with those added that loads (6N, K) left unbalanced call for.
+    def correction(self, lacking: FloatArray, removal: Removal) -> FloatArray:
+        """Scaled loads (6C, K) after a removal under loads (6N − 6, K) on all nodes but the one held."""
+        half = self.factor.forward(lacking)[0]
+        return removal.cleared(self._stretched(half + removal.rows.T @ removal.parting(removal.rows @ half)))
 
-        The displacements of a frame that has become soft are large, and its joint loads small differences of them.
-        """
-        rows = unknowns(removal.joints)
-        columns = removal.columns.values[: len(rows)]
-        half = _forward(self.factor, unbalanced[6:][self.factor.order])[0]
-        added = self._stress(half + columns.T @ removal.parting(columns @ half))
-        added[rows] = 0.0
-        return scaled + added
+    def _stretched(self, half: FloatArray) -> FloatArray:
+        """Scaled loads E L⁻ᵀ y (6C, K) from y (6N − 6, K), used up."""
+        return self.springs.stretched(self.factor.backward(half))
 
-    def _stress(self, half: FloatArray) -> FloatArray:
-        """Scaled joint loads E L⁻ᵀ y (6C, K) from y (6N − 6, K), used up."""
-        moved = np.zeros((self.springs.stress.shape[1], half.shape[1]))
-        moved[6 + self.factor.order] = _backward(self.factor, half)
-        return self.springs.stress @ moved
-
-    def _half_solved(self, joints: IntArray) -> tuple[FloatArray, list[slice]]:
-        """Columns (6N − 6, 6R) of Y for some joints, and the rows where they are not zero."""
-        size, count = len(self.factor.order), len(joints)
-        loads = np.zeros((size + 6, count, 6))
-        loads[self.places[joints], np.arange(count)[:, None]] = self.ends[joints]
-        return _forward(self.factor, loads[:size].reshape(size, 6 * count))
+    def _elongations(self, joints: IntArray) -> FloatArray:
+        """Columns (6N − 6, 6R) of Eᵀ for some joints."""
+        elongation, count = self.springs.elongation, len(joints)
+        columns = np.zeros((len(self.springs.nodes), 6, count, 6))
+        ends = elongation.data.reshape(-1, 2, 6, 6)[joints]
+        columns[self.springs.pairs[joints], :, np.arange(count)[:, None]] = ends.swapaxes(2, 3)
+        return columns.reshape(-1, 6 * count)[6:]
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,10 +106,25 @@ class Removal:
     columns: _Columns
     triangle: FloatArray
 
-    def parting(self, carried: FloatArray) -> FloatArray:
+    @property
+    def springs(self) -> IntArray:
+        """Springs (6M,) of the joints."""
+        return unknowns(self.joints, 6)
+
+    @property
+    def rows(self) -> FloatArray:
+        """Yᵀ (6M, 6N − 6), in the order of elimination."""
+        return self.columns.values[: 6 * len(self.joints)]
+
+    def parting(self, scaled: FloatArray) -> FloatArray:
         """How far x (6M, K) the sides of the removed joints part, which carried q_R (6M, K)."""
-        halfway = solve_triangular(self.triangle, carried, lower=True, check_finite=False)
+        halfway = solve_triangular(self.triangle, scaled, lower=True, check_finite=False)
         return solve_triangular(self.triangle, halfway, lower=True, trans="T", check_finite=False)
+
+    def cleared(self, scaled: FloatArray) -> FloatArray:
+        """Scaled loads (6C, K), used up, with nothing left in the removed joints."""
+        scaled[self.springs] = 0.0
+        return scaled
 
 
 class _Columns:
@@ -151,71 +147,19 @@ class _Columns:
         return columns
 
 
-def factorized_frame(elongation: bsr_array, part: IntArray, removed: IntArray) -> FactorizedFrame:
-    """Assemble and factorize a connected frame without some of its joints.
-
-    Parameters
-    ----------
-    elongation
-        (6C, 6N) matrix E of all joints, two blocks in the row of each.
-    part
-        (N − 1,) parts of the nested dissection of all nodes but node 0.
-    removed
-        (R,) joints that are not there.
+def factorized_frame(springs: SpringFrame, part: IntArray) -> FactorizedFrame:
+    """Factorize a connected frame, from the parts (N − 1,) of its nested dissection.
 
     Raises
     ------
     ArithmeticError
         If some of it moves without resistance: a pivot is zero to rounding.
     """
-    blocks = elongation.data.reshape(-1, 2, 6, 6).copy()
-    blocks[removed] = 0.0
-    present = bsr_array((blocks.reshape(-1, 6, 6), elongation.indices, elongation.indptr), shape=elongation.shape)
-    equilibrium = -present.T
-    held = _without_first_block_row(equilibrium)
-    stiffness = held @ held.T
+    stiffness = springs.stiffness()
     factor = frontal_cholesky(stiffness, part)
-    _refuse_vanishing_pivots(factor, stiffness.diagonal())
-    ends = blocks.swapaxes(2, 3).reshape(-1, 12, 6)
-    place = np.argsort(np.concatenate([6 + factor.order, np.arange(6)]))
-    places = place[unknowns(elongation.indices.astype(np.intp))].reshape(-1, 12)
-    return FactorizedFrame(SpringFrame(equilibrium, present, factor), factor, ends, places)
-
-
-def unknowns(blocks: IntArray) -> IntArray:
-    """Indices (6B,) of the rows of some blocks (B,)."""
-    return (6 * blocks[:, None] + np.arange(6)).ravel()
-
-
-def _without_first_block_row(matrix: bsr_array) -> bsr_array:
-    first = matrix.indptr[1]
-    rest = (matrix.data[first:], matrix.indices[first:], matrix.indptr[1:] - first)
-    return bsr_array(rest, shape=(matrix.shape[0] - matrix.blocksize[0], matrix.shape[1]))
-
-
-def _forward(factor: FrontalCholesky, values: FloatArray) -> tuple[FloatArray, list[slice]]:
-    """Solution of L y = x for columns x that are mostly zero, used up, and the rows where it is not."""
-    filled = []
-    for front in factor.fronts:
-        if values[front.own].any():
-            values[front.own] = own = dtrsm(1.0, front.triangle, values[front.own], lower=1)
-            values[front.beyond] -= front.rectangle @ own
-            filled.append(front.own)
-    return values, filled
-
-
-def _backward(factor: FrontalCholesky, values: FloatArray) -> FloatArray:
-    """Solution of Lᵀ x = y for columns y, used up."""
-    for front in reversed(factor.fronts):
-        rest = values[front.own] - front.rectangle.T @ values[front.beyond]
-        values[front.own] = dtrsm(1.0, front.triangle, rest, lower=1, trans_a=1)
-    return values
-
-
-def _refuse_vanishing_pivots(factor: FrontalCholesky, diagonal: FloatArray) -> None:
-    pivots = np.concatenate([front.triangle.diagonal() for front in factor.fronts]) ** 2
-    if (pivots <= LEAST_PIVOT * diagonal[factor.order]).any():
-        raise ArithmeticError("the matrix is singular to rounding")
+    if (factor.pivots <= LEAST_PIVOT * stiffness.diagonal()).any():
+        raise ArithmeticError("the frame is singular to rounding")
+    return FactorizedFrame(springs, factor)
 
 
 def _bordered(triangle: FloatArray, side: FloatArray, corner: FloatArray) -> FloatArray | None:

@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 
 from rheoclast import _checks
-from rheoclast._checks import FloatArray
-from rheoclast.generation._requests import seeded
+from rheoclast._checks import FloatArray, seeded
 from rheoclast.particles.aggregate import Aggregate
 from rheoclast.particles.spheres import Spheres
 

@@ -10,7 +10,7 @@ from rheoclast.generation import _growth
 from rheoclast.particles.aggregate import Aggregate
 
 
-def ballistic_cluster_cluster(count: int, radius: float = 1.0, spread: float = 0.0, seed: int = 0) -> Aggregate:
+def ballistic_cluster_cluster(count: int, radius: float = 1.0, *, spread: float = 0.0, seed: int = 0) -> Aggregate:
     """Aggregate of `count` spheres, of two halves that met on a straight line, each grown in the same way.
 
     Orientation, direction and offset over the cross-section are uniform. The aggregate is a tree of dimension about

@@ -13,7 +13,7 @@ MOST_MIGRATIONS = 2
 
 
 def ballistic_migration(
-    count: int, radius: float = 1.0, spread: float = 0.0, seed: int = 0, *, migrations: int = 1
+    count: int, radius: float = 1.0, *, spread: float = 0.0, seed: int = 0, migrations: int = 1
 ) -> Aggregate:
     """Aggregate of `count` spheres that arrived on straight lines and rolled on to a second or third contact.
 

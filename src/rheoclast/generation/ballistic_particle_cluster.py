@@ -10,7 +10,7 @@ from rheoclast.generation import _growth
 from rheoclast.particles.aggregate import Aggregate
 
 
-def ballistic_particle_cluster(count: int, radius: float = 1.0, spread: float = 0.0, seed: int = 0) -> Aggregate:
+def ballistic_particle_cluster(count: int, radius: float = 1.0, *, spread: float = 0.0, seed: int = 0) -> Aggregate:
     """Aggregate of `count` spheres that arrived one by one on straight lines and stuck where they first touched.
 
     The lines have a uniform direction and a uniform offset over the cross-section. The aggregate is a tree, compact in

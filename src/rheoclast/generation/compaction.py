@@ -16,9 +16,8 @@ from scipy.sparse import coo_array
 from scipy.sparse.linalg import lsmr
 
 from rheoclast import _checks
-from rheoclast._checks import FloatArray, IntArray
+from rheoclast._checks import FloatArray, IntArray, seeded
 from rheoclast.errors import GeometryError
-from rheoclast.generation._requests import seeded
 from rheoclast.generation._unit_spheres import unit_sphere_aggregate
 from rheoclast.generation.cluster_cluster import cluster_cluster
 from rheoclast.particles.aggregate import Aggregate
@@ -34,7 +33,7 @@ CLOSED = 1e-10
 NEWTON_STEPS = 8
 
 
-def compacted(aggregate: Aggregate, amount: float, seed: int = 0) -> Aggregate:
+def compacted(aggregate: Aggregate, amount: float, *, seed: int = 0) -> Aggregate:
     """The same equal spheres, compacted by a given amount: 0 leaves them in place, 1 packs them as closely as it goes.
 
     Along the way the mean coordination number rises and the radius of gyration falls to that of a random close packing,
@@ -83,7 +82,7 @@ def compacted_cluster(
     `compacted`, which also say what is refused.
     """
     tree = cluster_cluster(count, radius, fractal_dimension=fractal_dimension, prefactor=prefactor, seed=seed)
-    return compacted(tree, amount, seed)
+    return compacted(tree, amount, seed=seed)
 
 
 def _stage(centers: FloatArray, amount: float, rng: np.random.Generator) -> FloatArray:

@@ -10,7 +10,9 @@ from rheoclast.generation import _growth
 from rheoclast.particles.aggregate import Aggregate
 
 
-def diffusion_limited_cluster_cluster(count: int, radius: float = 1.0, spread: float = 0.0, seed: int = 0) -> Aggregate:
+def diffusion_limited_cluster_cluster(
+    count: int, radius: float = 1.0, *, spread: float = 0.0, seed: int = 0
+) -> Aggregate:
     """Aggregate of `count` spheres, of two halves that met by diffusion, each grown in the same way.
 
     The centre of one half follows a Brownian path from infinity relative to the other, in a random orientation that

@@ -11,7 +11,7 @@ from rheoclast.particles.aggregate import Aggregate
 
 
 def diffusion_limited_particle_cluster(
-    count: int, radius: float = 1.0, spread: float = 0.0, seed: int = 0
+    count: int, radius: float = 1.0, *, spread: float = 0.0, seed: int = 0
 ) -> Aggregate:
     """Aggregate of `count` spheres that diffused one by one from infinity and stuck where they first touched.
 

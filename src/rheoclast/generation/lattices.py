@@ -86,6 +86,11 @@ def lattice_ball(lattice: str, count: int, radius: float = 1.0) -> Aggregate:
     Spheres are ordered from the centre outwards. Where an outermost shell is not full, its sites nearest to the plane
     through the centre normal to (1, √2, √3) are taken first, so that opposite sites enter one after the other and the
     ball stays balanced. It is connected, as every site touches one that is nearer to the centre.
+
+    Raises
+    ------
+    ValueError
+        If the lattice is unknown or the count is below one.
     """
     count = _checks.whole_number("count", count, 1)
     shape = _lattice(lattice)

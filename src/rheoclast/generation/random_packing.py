@@ -10,14 +10,14 @@ from __future__ import annotations
 import numpy as np
 
 from rheoclast import _checks
-from rheoclast.generation._requests import seeded
+from rheoclast._checks import seeded
 from rheoclast.generation._unit_spheres import unit_sphere_aggregate
 from rheoclast.particles.aggregate import Aggregate
 
 TRIANGLE = np.array([[-1.0, -1 / np.sqrt(3), 0], [1, -1 / np.sqrt(3), 0], [0, 2 / np.sqrt(3), 0]])
 
 
-def random_packed_ball(count: int, radius: float = 1.0, seed: int = 0, *, disorder: float = 0.3) -> Aggregate:
+def random_packed_ball(count: int, radius: float = 1.0, *, seed: int = 0, disorder: float = 0.3) -> Aggregate:
     """Random close-packed ball of `count` equal spheres, `radius` in m, each touching three spheres placed before it.
 
     The C = 3 N − 6 contacts (N ≥ 3) make a mean coordination number of 6 − 12/N: isostatic without friction. The core,

@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     from rheoclast.generation._clusters import Cluster
 
 
-def reaction_limited_cluster_cluster(count: int, radius: float = 1.0, spread: float = 0.0, seed: int = 0) -> Aggregate:
+def reaction_limited_cluster_cluster(
+    count: int, radius: float = 1.0, *, spread: float = 0.0, seed: int = 0
+) -> Aggregate:
     """Aggregate of `count` spheres that stuck together with a vanishing probability per touch.
 
     A sphere of one cluster, a sphere of another, the orientation and the place of contact are drawn with the weight

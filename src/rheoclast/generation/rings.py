@@ -10,18 +10,29 @@ from rheoclast.particles.aggregate import Aggregate
 
 
 def ring(count: int, radius: float = 1.0) -> Aggregate:
-    """Ring of `count` ≥ 3 equal spheres, `radius` in m, in the plane z = 0, the first on the positive x axis."""
+    """Ring of `count` ≥ 3 equal spheres, `radius` in m, in the plane z = 0, the first on the positive x axis.
+
+    Raises
+    ------
+    ValueError
+        If the count is below three.
+    """
     count = _checks.whole_number("count", count, 3)
     angle = 2 * np.pi * np.arange(count) / count
     directions = np.stack([np.cos(angle), np.sin(angle), np.zeros(count)], axis=1)
     return unit_sphere_aggregate(directions / np.sin(np.pi / count), radius)
 
 
-def cross(arm: int, radius: float = 1.0, arms: int = 4) -> Aggregate:
+def cross(arm: int, radius: float = 1.0, *, arms: int = 4) -> Aggregate:
     """Cross of equal spheres, `radius` in m: one at the centre, and `arm` ≥ 1 more along each of its arms.
 
     Four `arms` lie along ± x and ± y, six along ± x, ± y and ± z. Sphere 0 is the centre; then follow the spheres of
     +x outwards, of −x, +y, …: 1 + arm · arms spheres.
+
+    Raises
+    ------
+    ValueError
+        If an arm has no sphere, or the number of arms is another.
     """
     arm = _checks.whole_number("arm", arm, 1)
     if arms not in (4, 6):

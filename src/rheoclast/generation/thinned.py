@@ -10,14 +10,13 @@ from __future__ import annotations
 import numpy as np
 
 from rheoclast import _checks
-from rheoclast._checks import IntArray
-from rheoclast.generation._requests import seeded
+from rheoclast._checks import IntArray, seeded
 from rheoclast.generation.lattices import lattice_ball
 from rheoclast.particles.aggregate import Aggregate
 from rheoclast.particles.morphology import mean_coordination
 
 
-def thinned(aggregate: Aggregate, coordination: float, seed: int = 0) -> Aggregate:
+def thinned(aggregate: Aggregate, coordination: float, *, seed: int = 0) -> Aggregate:
     """The same spheres, connected, with contacts taken away at random down to a mean coordination number.
 
     Parameters
@@ -46,9 +45,9 @@ def thinned(aggregate: Aggregate, coordination: float, seed: int = 0) -> Aggrega
     return Aggregate(aggregate.spheres, aggregate.pairs[np.sort(chosen)])
 
 
-def thinned_fcc_ball(count: int, coordination: float, radius: float = 1.0, seed: int = 0) -> Aggregate:
+def thinned_fcc_ball(count: int, coordination: float, radius: float = 1.0, *, seed: int = 0) -> Aggregate:
     """Ball of `count` spheres, `radius` in m, on the face-centred cubic lattice, thinned to a mean coordination."""
-    return thinned(lattice_ball("fcc", count, radius), coordination, seed)
+    return thinned(lattice_ball("fcc", count, radius), coordination, seed=seed)
 
 
 def _contact_number(aggregate: Aggregate, coordination: float) -> int:

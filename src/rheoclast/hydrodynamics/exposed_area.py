@@ -11,7 +11,7 @@ from rheoclast import _checks
 from rheoclast._checks import FloatArray
 from rheoclast.hydrodynamics.free_draining import FreeDraining
 from rheoclast.hydrodynamics.model import Approximation, HydrodynamicModel
-from rheoclast.stokes.mobility import Progress
+from rheoclast.progress import Progress
 
 
 @final

@@ -9,7 +9,7 @@ import numpy as np
 
 from rheoclast._checks import FloatArray
 from rheoclast.hydrodynamics.model import Approximation, HydrodynamicModel
-from rheoclast.stokes.mobility import Progress
+from rheoclast.progress import Progress
 from rheoclast.vectors import elementary_velocities
 
 

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from typing import NamedTuple
 
 from rheoclast._checks import FloatArray
-from rheoclast.stokes.mobility import Progress
+from rheoclast.progress import Progress
 from rheoclast.stokes.solver import Convergence
 
 

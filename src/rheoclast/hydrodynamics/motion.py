@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from rheoclast import _checks
 from rheoclast._checks import FloatArray
@@ -30,10 +31,10 @@ class RigidMotion:
     center: FloatArray
 
     def __post_init__(self) -> None:
-        for name in ("velocity", "angular_velocity", "center"):
-            object.__setattr__(self, name, _checks.real_array(name, getattr(self, name), (3,)))
+        names = ("velocity", "angular_velocity", "center")
+        _checks.set_fields(self, **{name: _checks.real_array(name, getattr(self, name), (3,)) for name in names})
 
-    def at(self, points: FloatArray) -> FloatArray:
+    def at(self, points: ArrayLike) -> FloatArray:
         """Velocity (..., 3) in m/s of points (..., 3) of the aggregate, in m."""
         return self.velocity + np.cross(self.angular_velocity, np.asarray(points) - self.center)
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from rheoclast import _checks
 from rheoclast._checks import FloatArray
@@ -16,8 +17,8 @@ from rheoclast.hydrodynamics.model import HydrodynamicModel
 from rheoclast.hydrodynamics.motion import RigidMotion, Settling
 from rheoclast.loads import SphereLoads
 from rheoclast.particles.spheres import Spheres
+from rheoclast.progress import Progress
 from rheoclast.scales import Scales, warn_of_radii, warn_of_viscosity
-from rheoclast.stokes.mobility import Progress
 from rheoclast.stokes.solver import Convergence
 from rheoclast.vectors import LEVI_CIVITA, STRAIN_BASIS, cross_matrix, strain_components
 
@@ -26,6 +27,7 @@ SAME_PLACE = 1e-9  # units of length
 DIMENSIONLESS_VISCOSITY = 1.0
 
 
+@_checks.instances
 def rigid_response(
     spheres: Spheres, model: HydrodynamicModel, viscosity: float, progress: Progress | None = None
 ) -> RigidResponse:
@@ -54,13 +56,11 @@ def rigid_response(
     UnitWarning
         If radii exceed 1 mm or the viscosity 1000 Pa s.
     """
-    _checks.instance("spheres", spheres, Spheres, "of an aggregate take aggregate.spheres")
-    _checks.instance("model", model, HydrodynamicModel, "for instance StokesianDynamics(order=2)")
     viscosity = _checks.positive("viscosity", viscosity)
     if viscosity != DIMENSIONLESS_VISCOSITY:
         warn_of_radii(spheres.radii)
         warn_of_viscosity(viscosity)
-    scales = Scales(float(spheres.radii.mean()), viscosity)
+    scales = Scales(spheres.mean_radius, viscosity)
     centers = (spheres.centers - spheres.center_of_mass) / scales.length
     response = None
     for each in model.elementary_loads(centers, spheres.radii / scales.length, progress):
@@ -113,34 +113,37 @@ class RigidResponse:
         """Centre of mass (3,) in m, the reference point of motion, resistance and mobility."""
         return self.spheres.center_of_mass
 
+    @_checks.instances
     def motion(self, flow: LinearFlow) -> RigidMotion:
         """Motion of the freely suspended aggregate: no total force, no total torque."""
         velocity = flow.velocity(self.center) + np.einsum("ijk,jk->i", self.translation_coupling, flow.strain_rate)
         angular_velocity = flow.angular_velocity + np.einsum("ijk,jk->i", self.rotation_coupling, flow.strain_rate)
         return RigidMotion(velocity, angular_velocity, self.center)
 
+    @_checks.instances
     def loads(self, flow: LinearFlow) -> SphereLoads:
         """Loads of the fluid on every sphere of the freely suspended aggregate. They depend on the strain rate only."""
         components, unit = strain_components(flow.strain_rate), self.strain_loads
         rounding = unit.rounding * float(np.abs(components).max())
         return SphereLoads(np.tensordot(components, unit.force, 1), np.tensordot(components, unit.torque, 1), rounding)
 
+    @_checks.instances
     def held(self, flow: LinearFlow) -> SphereLoads:
         """Loads of the fluid on every sphere of the aggregate held at rest where it is."""
         stream = flow.velocity(self.center) / self.scales.length
         ambient = np.concatenate([stream, flow.angular_velocity, strain_components(flow.strain_rate)])
         return self._dimensional(self.elementary_loads @ ambient)
 
-    def settling(self, force: FloatArray) -> Settling:
+    def settling(self, force: ArrayLike) -> Settling:
         """Motion under a force (3,) in N that acts at the centre of mass, without torque, in fluid at rest."""
-        force = _checks.real_array("force", force, (3,))
-        motion = self.mobility[:, :3] @ force
+        pull = _checks.real_array("force", force, (3,))
+        motion = self.mobility[:, :3] @ pull
         velocity, angular_velocity = motion[:3], motion[3:]
         relative = -np.concatenate([velocity / self.scales.length, angular_velocity])
         loads = self._dimensional(self.elementary_loads[:, :, :6] @ relative)
         share = self.spheres.volumes / self.spheres.volumes.sum()
-        rounding = ROUNDING * float(np.abs(force).max())
-        net_loads = SphereLoads(loads.force + share[:, None] * force, loads.torque, rounding)
+        rounding = ROUNDING * float(np.abs(pull).max())
+        net_loads = SphereLoads(loads.force + share[:, None] * pull, loads.torque, rounding)
         return Settling(velocity, angular_velocity, self.center, loads, net_loads)
 
     @cached_property

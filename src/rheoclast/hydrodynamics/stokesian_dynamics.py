@@ -14,9 +14,10 @@ from rheoclast._checks import FloatArray
 from rheoclast.hydrodynamics.free_body import free_loads
 from rheoclast.hydrodynamics.model import Approximation, HydrodynamicModel
 from rheoclast.hydrodynamics.truncation import expected_error
+from rheoclast.progress import Progress
 from rheoclast.stokes.automatic import Automatic
 from rheoclast.stokes.basis import MultipoleBasis
-from rheoclast.stokes.mobility import Mobility, Progress
+from rheoclast.stokes.mobility import Mobility
 from rheoclast.stokes.solver import Solver
 
 LOWEST_AUTOMATIC_ORDER = 2
@@ -36,8 +37,8 @@ class StokesianDynamics(HydrodynamicModel):
     ----------
     order
         Multipole order p ≥ 1: 1 keeps forces, 2 adds torques and stresslets, higher orders converge to the exact
-        solution of the Stokes equations. "auto" takes the smallest order, from 2 up, that meets the tolerance.
-    tolerance
+        solution of the Stokes equations. "auto" takes the smallest, from 2 up, that reaches the accuracy.
+    accuracy
         For order "auto": largest expected error of the forces on the spheres, as a share of their root mean square.
         Errors of contact tensions, as a share of the largest, mostly stay below it.
     solver
@@ -45,13 +46,13 @@ class StokesianDynamics(HydrodynamicModel):
     """
 
     order: int | Literal["auto"] = 2
-    tolerance: float = 0.02
+    accuracy: float = 0.02
     solver: Solver = field(default_factory=Automatic)
 
     def __post_init__(self) -> None:
         if self.order != "auto":
             MultipoleBasis(self.order)
-        _checks.positive("tolerance", self.tolerance)
+        _checks.positive("accuracy", self.accuracy)
 
     def elementary_loads(
         self, centers: FloatArray, radii: FloatArray, progress: Progress | None = None
@@ -65,7 +66,7 @@ class StokesianDynamics(HydrodynamicModel):
         GeometryError
             If the spheres overlap so much that the mobility is not positive definite.
         ArithmeticError
-            If order "auto" does not reach its tolerance.
+            If order "auto" does not reach its accuracy.
         """
         if self.order != "auto":
             return self._solve(self.order, centers, radii, progress)
@@ -73,11 +74,11 @@ class StokesianDynamics(HydrodynamicModel):
             found = self._solve(order, centers, radii, progress)
             forces = [free_loads(centers, each.loads)[:, :3] for each in found]
             error, size = float(expected_error(forces, order)), float((forces[-1] ** 2).sum() ** 0.5)
-            if error <= self.tolerance * size:
+            if error <= self.accuracy * size:
                 return found
         raise ArithmeticError(
-            f"order='auto': tolerance {self.tolerance:g} is not met at order {order}, "
-            f"which errs by {error / size:.2g}; raise the tolerance or give the order"
+            f"order='auto': accuracy {self.accuracy:g} is not met at order {order}, "
+            f"which errs by {error / size:.2g}; give a larger number or the order"
         )
 
     def _solve(

@@ -156,8 +156,8 @@ def trajectory(
     start
         Rotation from body to lab axes at the start, a (3, 3) matrix or a SciPy `Rotation`. Default: none.
     tolerance
-        Largest error of the unit quaternion in one step, between 1e-13 and 0.01. The error of the orientation grows
-        from step to step, and falls about in proportion to the tolerance.
+        Error of the unit quaternion in one step, the root mean square of its components, between 1e-13 and 0.01. The
+        error of the orientation grows from step to step, and falls about in proportion to the tolerance.
 
     Raises
     ------

@@ -38,4 +38,4 @@ def read_pairs(path: str | os.PathLike[str]) -> IntArray:
 def write_pairs(path: str | os.PathLike[str], pairs: IntArray, overwrite: bool = False) -> None:
     """Write a table of contacts (C, 2) that `read_pairs` reads. Errors as in `write_table`."""
     i, j = pairs.T
-    write_table(path, {"i": i, "j": j}, overwrite)
+    write_table(path, {"i": i, "j": j}, overwrite=overwrite)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import math
 import os
 import re
@@ -35,7 +36,9 @@ class TextFile:
         try:
             value = float(word.replace("_", "?"))  # Python takes 1_0 for 10; no other program does
         except ValueError:
-            raise self.error(f"expected a number, got {word!r:.60}; correct or remove this line", line) from None
+            comma = re.fullmatch(r"[-+]?\d+,\d+", word)
+            advice = "write decimal points, not commas" if comma else "correct or remove this line"
+            raise self.error(f"expected a number, got {word!r:.60}; {advice}", line) from None
         if not math.isfinite(value):
             raise self.error(f"expected a finite number, got {word!r:.60}; correct or remove this line", line)
         return value
@@ -63,6 +66,8 @@ def load(path: str | os.PathLike[str]) -> TextFile:
     if file.path.is_dir():
         raise file.error("expected a file, got a folder; name a file in it")
     content = file.path.read_bytes()
+    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        raise file.error("expected text in UTF-8, got UTF-16; save it as UTF-8")
     text = _decoded(content)
     found = _NOT_TEXT.search(text)
     if found:
@@ -96,6 +101,8 @@ def replacing(path: str | os.PathLike[str], overwrite: bool = False) -> Iterator
         If `path` exists and may not be overwritten, or is a folder or a device.
     FileNotFoundError
         If its folder does not exist.
+    OSError
+        If nothing can be written there.
     """
     target = writable(path, overwrite)
     temporary = target.with_name(f".{target.stem}-{secrets.token_hex(4)}{target.suffix}")
@@ -106,6 +113,10 @@ def replacing(path: str | os.PathLike[str], overwrite: bool = False) -> Iterator
         if target.exists():
             shutil.copymode(target, temporary)
         os.replace(temporary, target)
+    except OSError as error:
+        if error.filename != str(temporary):
+            raise
+        raise OSError(f"{path}: cannot be written ({error.strerror}); choose another folder") from None
     finally:
         temporary.unlink(missing_ok=True)
 

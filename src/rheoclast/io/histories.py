@@ -56,7 +56,7 @@ def read_histories(
     Parameters
     ----------
     path
-        File of histories; the layouts are described in `rheoclast.io.histories`.
+        File of histories, in one of the layouts below.
     time_unit
         Unit of the instants: "s", "ms", "us", "min", "h", "dimensionless", or its value in s.
     gradient_unit
@@ -86,6 +86,20 @@ def read_histories(
     -----
     UserWarning
         If a step is more than ten times the median of its path: samples may be missing.
+
+    Notes
+    -----
+    Tables (.csv, .tsv, .txt, .dat): one row per instant with the time and nine entries A11 A12 A13 A21 … A33, parted by
+    commas, semicolons, tabs or blanks. A first line, with or without # in front, may name the columns, which then come
+    in any order: `t`; the entries by their places, `A11` or `g_xy`, or by their meaning, `dudx` … `dwdz` or
+    `du_x/dy`, which then decides instead of `order`; ``trajectory``, `id`, `track` or `particle`, a number that tells
+    the paths apart. Units may stand behind the names: `t_ms`, `dudx (1/ms)`. Other columns are passed over.
+
+    NPY: an array (T, 10), or (K, T, 10) of K paths, of times and entries.
+
+    NPZ and HDF5: two arrays, by default named `t`, (T,) for all paths or (K, T), and `gradient`, (T, 3, 3) or
+    (K, T, 3, 3), or 9 in place of 3, 3. In HDF5 an attribute `unit` of a dataset is held against `time_unit` or
+    `gradient_unit`.
     """
     seconds, per_second = _value("time_unit", time_unit, SECONDS), _value("gradient_unit", gradient_unit, PER_SECOND)
     if order not in ("row", "column"):

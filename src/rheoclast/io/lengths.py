@@ -14,6 +14,7 @@ METRES = {
     "\u03bcm": 1e-6,  # Greek mu, which looks the same
     "nm": 1e-9,
     "angstrom": 1e-10,
+    "\u00c5": 1e-10,  # Å
     DIMENSIONLESS: 1.0,
 }
 
@@ -35,10 +36,10 @@ def metres(unit: str | float) -> float:
 
 
 def ascii_name(unit: str | float) -> str:
-    """The unit as column names spell it: `um` for either mu, a number of metres in words."""
+    """The unit as column names spell it: `um` for either mu, `angstrom` for Å, a number of metres in words."""
     if not isinstance(unit, str):
         return f"{float(unit)!r} m"
-    return unit.replace("\u00b5", "u").replace("\u03bc", "u")
+    return unit.replace("\u00b5", "u").replace("\u03bc", "u").replace("\u00c5", "angstrom")
 
 
 def column_name(quantity: str, unit: str | float) -> str:

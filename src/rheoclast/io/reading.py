@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -11,13 +12,13 @@ import numpy as np
 
 from rheoclast import _checks, scales
 from rheoclast._checks import FloatArray
-from rheoclast.errors import GeometryError
+from rheoclast.errors import GeometryError, GeometryWarning
 from rheoclast.io import lengths
 from rheoclast.io.contact_table import read_pairs
 from rheoclast.io.files import TextFile, load
 from rheoclast.io.formats import reader_for
 from rheoclast.io.rows import SphereRows
-from rheoclast.particles.aggregate import Aggregate
+from rheoclast.particles.aggregate import WIDE_GAP, Aggregate
 from rheoclast.particles.contacts import CONTACT_TOLERANCE
 from rheoclast.particles.spheres import Spheres
 
@@ -65,15 +66,21 @@ def read(
     Warns
     -----
     UnitWarning
-        If a radius exceeds 1 mm, unless lengths are dimensionless.
+        If a radius exceeds 1 mm or is below 0.1 nm, unless lengths are dimensionless.
+    GeometryWarning
+        If a contact reaches across a gap of half a mean radius or more.
     """
     spheres = read_spheres(path, unit, format=format, radius=radius, overlap_tolerance=overlap_tolerance)
-    if contacts is not None:
+    if contacts is None:
+        with _named(path):
+            aggregate = Aggregate.touching(spheres, tolerance)
+        _warn_of_gaps(path, aggregate, f"is the tolerance of {tolerance:g} meant?")
+    else:
         pairs = read_pairs(contacts)
         with _named(contacts):
-            return Aggregate(spheres, pairs)
-    with _named(path):
-        return Aggregate.touching(spheres, tolerance)
+            aggregate = Aggregate(spheres, pairs)
+        _warn_of_gaps(contacts, aggregate, "are spheres counted from 0 there?")
+    return aggregate
 
 
 def read_spheres(
@@ -95,6 +102,19 @@ def read_spheres(
     if unit != lengths.DIMENSIONLESS:
         scales.warn_of_radii(spheres.radii)
     return spheres
+
+
+def _warn_of_gaps(path: str | os.PathLike[str], aggregate: Aggregate, question: str) -> None:
+    wide = np.flatnonzero(aggregate.gaps >= WIDE_GAP)
+    if len(wide):
+        i, j = aggregate.pairs[wide[0]]
+        others = f" (and {len(wide) - 1} more)" if len(wide) > 1 else ""
+        warnings.warn(
+            f"{path}: contact {wide[0]} joins spheres {i} and {j} across a gap of {aggregate.gaps[wide[0]]:.3g} mean "
+            f"radii{others}; {question}",
+            GeometryWarning,
+            stacklevel=3,
+        )
 
 
 def _radii(file: TextFile, found: SphereRows, radius: float | None) -> FloatArray:

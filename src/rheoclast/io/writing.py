@@ -61,7 +61,7 @@ def write(
         kind.write(stream, contents)
 
 
-def write_table(path: str | os.PathLike[str], columns: Columns, overwrite: bool = False) -> None:
+def write_table(path: str | os.PathLike[str], columns: Columns, *, overwrite: bool = False) -> None:
     """Write a table of comma-separated values, numbers with all their digits.
 
     Parameters

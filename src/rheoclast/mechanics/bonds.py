@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields
 from math import gamma
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from rheoclast import _checks
 from rheoclast._checks import FloatArray, IntArray
@@ -14,7 +15,7 @@ SMALLEST_FACTOR = 1e-12
 LEAST_MODULUS = 0.1
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class Bonds:
     """Stiffness and strength of the contacts, one value for all or one per contact.
 
@@ -41,24 +42,32 @@ class Bonds:
     tangential: FloatArray
     bending: FloatArray
     twisting: FloatArray
-    tensile_strength: FloatArray = np.inf  # type: ignore[assignment]
-    shear_strength: FloatArray = np.inf  # type: ignore[assignment]
-    bending_strength: FloatArray = np.inf  # type: ignore[assignment]
-    twisting_strength: FloatArray = np.inf  # type: ignore[assignment]
+    tensile_strength: FloatArray
+    shear_strength: FloatArray
+    bending_strength: FloatArray
+    twisting_strength: FloatArray
 
-    def __post_init__(self) -> None:
-        lengths = {}
-        for field in fields(self):
-            given = getattr(self, field.name)
-            if np.ndim(given) > 1:
-                raise ValueError(f"{field.name}: expected one value or one per contact, got shape {np.shape(given)}")
-            unlimited = field.name.endswith("strength")
-            value = _checks.positive_array(field.name, given, np.shape(given), infinite_allowed=unlimited)
-            object.__setattr__(self, field.name, value)
-            if value.ndim:
-                lengths[field.name] = len(value)
+    def __init__(
+        self,
+        normal: ArrayLike,
+        tangential: ArrayLike,
+        bending: ArrayLike,
+        twisting: ArrayLike,
+        tensile_strength: ArrayLike = np.inf,
+        shear_strength: ArrayLike = np.inf,
+        bending_strength: ArrayLike = np.inf,
+        twisting_strength: ArrayLike = np.inf,
+    ) -> None:
+        given = [normal, tangential, bending, twisting]
+        given += [tensile_strength, shear_strength, bending_strength, twisting_strength]
+        values = {
+            field.name: _one_or_one_per_contact(field.name, value, infinite_allowed=field.name.endswith("strength"))
+            for field, value in zip(fields(self), given, strict=True)
+        }
+        lengths = {name: len(value) for name, value in values.items() if value.ndim}
         if len(set(lengths.values())) > 1:
             raise ValueError(f"bonds: expected the same number of contacts everywhere, got {lengths}")
+        _checks.set_fields(self, **values)
 
     def stiffness(self, contacts: int) -> FloatArray:
         """Normal, tangential, bending and twisting stiffness of `contacts` contacts, (C, 4)."""
@@ -82,15 +91,25 @@ class Bonds:
         modulus = _checks.positive("modulus", modulus)
         if modulus < LEAST_MODULUS:
             raise ValueError(f"modulus: expected at least {LEAST_MODULUS:g}, got {modulus:g}; 1 is a wide scatter")
-        drawn = np.random.default_rng(seed).weibull(modulus, contacts)
+        drawn = _checks.seeded(seed).weibull(modulus, _checks.whole_number("contacts", contacts, 0))
         factor = np.maximum(drawn / gamma(1 + 1 / modulus), SMALLEST_FACTOR)
         return Bonds(*self.stiffness(contacts).T, *(factor[:, None] * self.strength(contacts)).T)
 
-    def _table(self, contacts: int, *names: str) -> FloatArray:
-        columns = []
-        for name in names:
-            value = getattr(self, name)
+    def refuse_other_count(self, contacts: int) -> None:
+        """Refuse bonds that are given one by one for another number of contacts."""
+        for field in fields(self):
+            value = getattr(self, field.name)
             if value.ndim and len(value) != contacts:
-                raise ValueError(f"bonds.{name}: expected one value or one per contact ({contacts}), got {len(value)}")
-            columns.append(np.broadcast_to(value, contacts))
-        return np.stack(columns, axis=1)
+                raise ValueError(
+                    f"bonds.{field.name}: expected one value or one per contact ({contacts}), got {len(value)}"
+                )
+
+    def _table(self, contacts: int, *names: str) -> FloatArray:
+        self.refuse_other_count(contacts)
+        return np.stack([np.broadcast_to(getattr(self, name), contacts) for name in names], axis=1)
+
+
+def _one_or_one_per_contact(name: str, value: ArrayLike, infinite_allowed: bool) -> FloatArray:
+    if np.ndim(value) > 1:
+        raise ValueError(f"{name}: expected one value or one per contact, got shape {np.shape(value)}")
+    return _checks.positive_array(name, value, np.shape(value), infinite_allowed=infinite_allowed)

@@ -96,42 +96,45 @@ def contact_loads(
     check_loads(aggregate, loads)
     by_statics = _by_statics(aggregate, bonds, method)
     stiffness = None if bonds is None else dimensionless_stiffness(aggregate, bonds)
-    length = float(aggregate.spheres.radii.mean())
     geometry = dimensionless_geometry(aggregate)
-    cases, size = dimensionless_cases(loads, length)
+    cases, size = dimensionless_cases(aggregate, loads)
     if by_statics or stiffness is None:
         carried = tree_loads(*geometry, cases)
     else:
         carried = spring_frame(*geometry, stiffness).joint_loads(cases)
-    shape = (*loads.force.shape[:-2], len(aggregate.pairs), 3)
-    force, moment = size * carried[:, :3], size * length * carried[:, 3:]
-    return ContactLoads(
-        aggregate.normals,
-        force.transpose(2, 0, 1).reshape(shape),
-        moment.transpose(2, 0, 1).reshape(shape),
-    )
+    return dimensional_loads(aggregate, carried, size, loads.force.shape[:-2])
 
 
 def dimensionless_geometry(aggregate: Aggregate) -> tuple[FloatArray, IntArray, FloatArray]:
     """Centres (N, 3), pairs (C, 2) and contact points (C, 3), lengths in mean radii from the centre of mass."""
-    length, origin = float(aggregate.spheres.radii.mean()), aggregate.spheres.center_of_mass
+    length, origin = aggregate.spheres.mean_radius, aggregate.spheres.center_of_mass
     return (aggregate.spheres.centers - origin) / length, aggregate.pairs, (aggregate.contact_points - origin) / length
 
 
 def dimensionless_stiffness(aggregate: Aggregate, bonds: Bonds) -> FloatArray:
     """Stiffness (C, 4) of the contacts in mean radii and mean normal stiffnesses."""
-    length = float(aggregate.spheres.radii.mean())
+    length = aggregate.spheres.mean_radius
     stiffness = bonds.stiffness(len(aggregate.pairs)) / [1, 1, length**2, length**2]
     return stiffness / stiffness[:, 0].mean()
 
 
-def dimensionless_cases(loads: SphereLoads, length: float) -> tuple[FloatArray, FloatArray]:
+def dimensionless_cases(aggregate: Aggregate, loads: SphereLoads) -> tuple[FloatArray, FloatArray]:
     """Load cases (N, 6, K) in units of each case's largest load, and that size (K,) in N."""
-    cases = np.concatenate([loads.force, loads.torque / length], axis=-1)
+    cases = np.concatenate([loads.force, loads.torque / aggregate.spheres.mean_radius], axis=-1)
     cases = cases.reshape(-1, *cases.shape[-2:]).transpose(1, 2, 0)
     size = np.abs(cases).max(axis=(0, 1))
     size[size == 0] = 1.0
     return cases / size, size
+
+
+def dimensional_loads(
+    aggregate: Aggregate, carried: FloatArray, size: FloatArray, batch: tuple[int, ...]
+) -> ContactLoads:
+    """Loads (..., C) of the contacts from joint loads (C, 6, K) in units of each case's size (K,) in N."""
+    cases = (size * carried).transpose(2, 0, 1)
+    shape = (*batch, len(carried), 3)
+    force, moment = cases[..., :3].reshape(shape), aggregate.spheres.mean_radius * cases[..., 3:].reshape(shape)
+    return ContactLoads(aggregate.normals, force, moment)
 
 
 def _by_statics(aggregate: Aggregate, bonds: Bonds | None, method: Method) -> bool:

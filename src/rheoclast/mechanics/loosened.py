@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from rheoclast._checks import FloatArray, IntArray
 from rheoclast.frames.removable_tree import LoadedTree, RemovableTree
 from rheoclast.frames.removal import CollapseError, LoadedFrame, RemovableFrame, removable_frame
@@ -15,6 +13,7 @@ from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.contact_loads import (
     ContactLoads,
     check_loads,
+    dimensional_loads,
     dimensionless_cases,
     dimensionless_geometry,
     dimensionless_stiffness,
@@ -45,7 +44,7 @@ class LoosenableAggregate:
             As `contact_loads`.
         """
         check_loads(self.aggregate, loads)
-        cases, size = dimensionless_cases(loads, float(self.aggregate.spheres.radii.mean()))
+        cases, size = dimensionless_cases(self.aggregate, loads)
         return _loosened(self.aggregate, self._frame.loaded(cases), size, loads.force.shape[:-2])
 
 
@@ -113,8 +112,4 @@ def loosenable(aggregate: Aggregate, bonds: Bonds) -> LoosenableAggregate:
 def _loosened(
     aggregate: Aggregate, state: LoadedFrame | LoadedTree, size: FloatArray, batch: tuple[int, ...]
 ) -> LoosenedAggregate:
-    length = float(aggregate.spheres.radii.mean())
-    carried = np.moveaxis(size * state.joint_loads, -1, 0)
-    shape = (*batch, len(carried[0]), 3)
-    force, moment = carried[..., :3].reshape(shape), length * carried[..., 3:].reshape(shape)
-    return LoosenedAggregate(aggregate, ContactLoads(aggregate.normals, force, moment), state, size)
+    return LoosenedAggregate(aggregate, dimensional_loads(aggregate, state.joint_loads, size, batch), state, size)

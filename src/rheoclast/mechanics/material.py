@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 from rheoclast import _checks
 
@@ -43,9 +45,9 @@ class Material:
         return self.youngs_modulus / (2 * (1 - self.poisson_ratio**2))
 
 
-MATERIALS: dict[str, Material] = {
-    "polystyrene": Material(youngs_modulus=3.4e9, poisson_ratio=0.33, work_of_adhesion=0.02),
-}
+MATERIALS: Mapping[str, Material] = MappingProxyType(
+    {"polystyrene": Material(youngs_modulus=3.4e9, poisson_ratio=0.33, work_of_adhesion=0.02)}
+)
 """Materials by name, for water at rest.
 
 The elastic constants are those of the bulk. The work of adhesion is an order of magnitude: van der Waals attraction

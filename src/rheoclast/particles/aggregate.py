@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
 from rheoclast import _checks
@@ -16,8 +17,10 @@ from rheoclast.graphs import connected_parts
 from rheoclast.particles.contacts import CONTACT_TOLERANCE, near_pairs, surface_gaps
 from rheoclast.particles.spheres import Spheres
 
+WIDE_GAP = 0.5  # mean radii: wider than any lubricated or badly resolved contact
 
-@dataclass(frozen=True, eq=False)
+
+@dataclass(frozen=True, eq=False, init=False)
 class Aggregate:
     """One connected aggregate of touching spheres. Contact c joins spheres `pairs[c]` = (i, j), i < j.
 
@@ -39,14 +42,16 @@ class Aggregate:
     spheres: Spheres
     pairs: IntArray
 
-    def __post_init__(self) -> None:
-        pairs = _contact_pairs(self.pairs, len(self.spheres))
-        object.__setattr__(self, "pairs", _checks.frozen(pairs))
-        _refuse_parts(self.spheres, pairs)
+    def __init__(self, spheres: Spheres, pairs: ArrayLike) -> None:
+        _checks.instance("spheres", spheres, Spheres)
+        ordered = _contact_pairs(pairs, len(spheres))
+        _refuse_parts(spheres, ordered)
+        _checks.set_fields(self, spheres=spheres, pairs=_checks.frozen(ordered))
 
     @classmethod
     def touching(cls, spheres: Spheres, tolerance: float = CONTACT_TOLERANCE) -> Aggregate:
         """The aggregate in which every two spheres touch whose gap is at most `tolerance` mean radii of the pair."""
+        _checks.instance("spheres", spheres, Spheres)
         tolerance = _checks.not_negative("tolerance", tolerance)
         return cls(spheres, near_pairs(spheres.centers, spheres.radii, tolerance)[0])
 
@@ -78,6 +83,11 @@ class Aggregate:
         arm = 0.5 * (distance + radii[first] - radii[second])
         return _checks.frozen(centers[first] + arm[:, None] * self.normals)
 
+    @cached_property
+    def gaps(self) -> FloatArray:
+        """Gaps (C,) between the surfaces in contact, in mean radii of the two spheres; negative where they overlap."""
+        return _checks.frozen(surface_gaps(self.spheres.centers, self.spheres.radii, self.pairs))
+
     @property
     def hyperstaticity(self) -> int:
         """Degree of hyperstaticity 6 (C − N + 1): zero for a tree, whose contact loads follow from balance alone."""
@@ -89,7 +99,7 @@ class Aggregate:
         return self.hyperstaticity == 0
 
 
-def _contact_pairs(pairs: IntArray, count: int) -> IntArray:
+def _contact_pairs(pairs: ArrayLike, count: int) -> IntArray:
     """Checked copy of contact pairs (C, 2) with i < j in each."""
     given = np.asarray(pairs)
     if given.size == 0:
@@ -124,7 +134,11 @@ def _refuse_parts(spheres: Spheres, pairs: IntArray) -> None:
         f"the aggregate is in {len(sizes)} parts, expected one: sphere{'s' * (len(smallest) > 1)} {listed} "
         f"({len(smallest)} of {len(spheres)}) touch{'es' * (len(smallest) == 1)} no other part; "
         f"nearest are spheres {i} and {j} with a gap of {gap:.3g} mean radii; "
-        "raise the contact tolerance above it or remove the loose part"
+        + (
+            "raise the contact tolerance above it or remove the loose part"
+            if gap < WIDE_GAP
+            else "are these several aggregates, or one cut by a periodic box? Give one, with unwrapped coordinates"
+        )
     )
 
 

@@ -10,15 +10,17 @@ from __future__ import annotations
 from itertools import combinations
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.spatial import ConvexHull, QhullError
 
-from rheoclast._checks import FloatArray, IntArray
+from rheoclast._checks import FloatArray, IntArray, instances, real_array
 from rheoclast.particles.aggregate import Aggregate
 from rheoclast.particles.spheres import Spheres
 
 ENCLOSING_ROUNDING = 1e-12
 
 
+@instances
 def radius_of_gyration(spheres: Spheres) -> float:
     """Radius of gyration in m, at uniform density, the spheres' own extent included.
 
@@ -28,6 +30,7 @@ def radius_of_gyration(spheres: Spheres) -> float:
     return float(np.sqrt(np.average(distance2 + 0.6 * spheres.radii**2, weights=spheres.volumes)))
 
 
+@instances
 def gyration_tensor(spheres: Spheres) -> FloatArray:
     """Gyration tensor (3, 3) in m² about the centre of mass, the spheres' own extent included; its trace is Rg².
 
@@ -38,12 +41,14 @@ def gyration_tensor(spheres: Spheres) -> FloatArray:
     return np.einsum("n,ni,nj->ij", share, offset, offset) + 0.2 * np.dot(share, spheres.radii**2) * np.eye(3)
 
 
+@instances
 def anisotropy(spheres: Spheres) -> float:
     """Ratio of the largest to the smallest eigenvalue of the gyration tensor: 1 for a ball, finite for a chain too."""
     smallest, _, largest = np.linalg.eigvalsh(gyration_tensor(spheres))
     return float(largest / smallest)
 
 
+@instances
 def relative_shape_anisotropy(spheres: Spheres) -> float:
     """Relative shape anisotropy κ² of the gyration tensor: 0 for a ball, towards 1/4 for a disc and 1 for a rod.
 
@@ -54,6 +59,7 @@ def relative_shape_anisotropy(spheres: Spheres) -> float:
     return float(1.5 * np.sum(deviator**2) / np.trace(tensor) ** 2)
 
 
+@instances
 def porosity(spheres: Spheres) -> float:
     """Share of void in the homogeneous ball of equal radius of gyration, whose radius is sqrt(5/3) Rg; in [0, 1).
 
@@ -62,6 +68,7 @@ def porosity(spheres: Spheres) -> float:
     return _void_share(spheres, np.sqrt(5 / 3) * radius_of_gyration(spheres))
 
 
+@instances
 def enclosing_porosity(spheres: Spheres) -> float:
     """Share of void in the smallest sphere that encloses all spheres; in [0, 1)."""
     return _void_share(spheres, enclosing_radius(spheres))
@@ -71,11 +78,13 @@ def _void_share(spheres: Spheres, radius: float) -> float:
     return max(0.0, 1 - float(np.sum((spheres.radii / radius) ** 3)))
 
 
+@instances
 def enclosing_radius(spheres: Spheres) -> float:
     """Radius in m of the smallest sphere that encloses all spheres entirely."""
     return enclosing_sphere(spheres)[1]
 
 
+@instances
 def enclosing_sphere(spheres: Spheres) -> tuple[FloatArray, float]:
     """Centre (3,) and radius of the smallest sphere that encloses all spheres entirely, in m, exact but for rounding.
 
@@ -126,42 +135,49 @@ def _tangent_spheres(balls: FloatArray) -> list[tuple[FloatArray, float]]:
     return [(first + u + s * v, float(balls[0, 3] + s)) for s in roots[np.isreal(roots)].real if s >= 0]
 
 
+@instances
 def coordination_numbers(aggregate: Aggregate) -> IntArray:
     """Number of contacts of every sphere, (N,)."""
     return np.bincount(aggregate.pairs.ravel(), minlength=len(aggregate)).astype(np.intp)
 
 
+@instances
 def coordination_distribution(aggregate: Aggregate) -> FloatArray:
     """Share (K,) of the spheres that have 0, 1, … K − 1 contacts, with K − 1 the largest number that occurs."""
     return np.bincount(coordination_numbers(aggregate)) / len(aggregate)
 
 
+@instances
 def mean_coordination(aggregate: Aggregate) -> float:
     """Mean number of contacts of a sphere, 2 C / N: 2 − 2 / N for a tree."""
     return 2 * len(aggregate.pairs) / len(aggregate)
 
 
+@instances
 def loops(aggregate: Aggregate) -> int:
     """Number of independent cycles of contacts, C − N + 1: zero for a tree."""
     return len(aggregate.pairs) - len(aggregate) + 1
 
 
-def depth(aggregate: Aggregate, points: FloatArray) -> FloatArray:
+@instances
+def depth(aggregate: Aggregate, points: ArrayLike) -> FloatArray:
     """How deep points (P, 3) between the spheres lie below the convex hull of the aggregate, (P,), in mean radii.
 
     The hull is that of the centres, moved outwards by the mean radius: exact for equal spheres. Contacts of planar and
     straight aggregates are at depth 1.
     """
-    length, origin = float(aggregate.spheres.radii.mean()), aggregate.spheres.center_of_mass
+    places = real_array("points", points, ("P", 3))
+    length, origin = aggregate.spheres.mean_radius, aggregate.spheres.center_of_mass
     try:
         faces = ConvexHull((aggregate.spheres.centers - origin) / length).equations
     except (QhullError, ValueError):  # flat, straight, or fewer than four spheres
-        return np.ones(len(points))
-    below = -((np.asarray(points) - origin) / length @ faces[:, :3].T + faces[:, 3])
+        return np.ones(len(places))
+    below = -((places - origin) / length @ faces[:, :3].T + faces[:, 3])
     return 1 + below.min(axis=1)
 
 
-def radial_position(aggregate: Aggregate, points: FloatArray) -> FloatArray:
-    """Distance (P,) of points (P, 3) from the centre of mass over the radius of gyration."""
-    offset = np.asarray(points) - aggregate.spheres.center_of_mass
+@instances
+def radial_position(aggregate: Aggregate, points: ArrayLike) -> FloatArray:
+    """Distance (...) of points (..., 3) from the centre of mass over the radius of gyration."""
+    offset = real_array("points", points, (*np.shape(points)[:-1], 3)) - aggregate.spheres.center_of_mass
     return np.linalg.norm(offset, axis=-1) / radius_of_gyration(aggregate.spheres)

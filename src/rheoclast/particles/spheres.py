@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from rheoclast import _checks
 from rheoclast._checks import FloatArray
@@ -19,7 +20,7 @@ LARGEST_OVERLAP = 2 * (1 - 1e-9)  # mean radii: beyond it two spheres of like si
 EXTREME_LENGTH = 1e50
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class Spheres:
     """Rigid spheres in space. Hydrodynamics sees these and nothing else.
 
@@ -42,22 +43,21 @@ class Spheres:
 
     centers: FloatArray
     radii: FloatArray
-    overlap_tolerance: float = CONTACT_TOLERANCE
+    overlap_tolerance: float
 
-    def __post_init__(self) -> None:
-        centers = _checks.real_array("centers", self.centers, ("N", 3))
-        if len(centers) == 0:
+    def __init__(self, centers: ArrayLike, radii: ArrayLike, overlap_tolerance: float = CONTACT_TOLERANCE) -> None:
+        places = _checks.real_array("centers", centers, ("N", 3))
+        if len(places) == 0:
             raise ValueError("centers: expected at least one sphere, got none")
-        radii = np.broadcast_to(self.radii, len(centers)) if np.ndim(self.radii) == 0 else self.radii
-        radii = _checks.positive_array("radii", radii, ("N",))
-        if len(radii) != len(centers):
-            raise ValueError(f"radii: expected one per sphere ({len(centers)}) or a single value, got {len(radii)}")
-        object.__setattr__(self, "centers", centers)
-        object.__setattr__(self, "radii", radii)
-        _checks.not_negative("overlap_tolerance", self.overlap_tolerance)
-        _refuse_extreme("centers", centers, smallest=0.0)
-        _refuse_extreme("radii", radii, smallest=1 / EXTREME_LENGTH)
-        _refuse_overlap(centers, radii, self.overlap_tolerance)
+        each = np.broadcast_to(radii, len(places)) if np.ndim(radii) == 0 else radii
+        sizes = _checks.positive_array("radii", each, ("N",))
+        if len(sizes) != len(places):
+            raise ValueError(f"radii: expected one per sphere ({len(places)}) or a single value, got {len(sizes)}")
+        tolerance = _checks.not_negative("overlap_tolerance", overlap_tolerance)
+        _refuse_extreme("centers", places, smallest=0.0)
+        _refuse_extreme("radii", sizes, smallest=1 / EXTREME_LENGTH)
+        _refuse_overlap(places, sizes, tolerance)
+        _checks.set_fields(self, centers=places, radii=sizes, overlap_tolerance=tolerance)
 
     def __len__(self) -> int:
         return len(self.radii)
@@ -71,6 +71,11 @@ class Spheres:
         """The same spheres turned about the origin by a (3, 3) rotation matrix or a SciPy `Rotation`."""
         matrix = _checks.rotation_matrix("rotation", rotation)
         return Spheres(self.centers @ matrix.T, self.radii, self.overlap_tolerance)
+
+    @cached_property
+    def mean_radius(self) -> float:
+        """Mean radius in m, the unit of length in which everything is computed."""
+        return float(self.radii.mean())
 
     @property
     def volumes(self) -> FloatArray:

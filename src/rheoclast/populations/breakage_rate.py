@@ -1,4 +1,4 @@
-"""How often the aggregates of a population break: rates from first failures, and from up-crossings.
+"""How often the aggregates of a population break: rates from first failures, and from up-crossings of their strength.
 
 Waiting times that end without failure are censored. For waiting times that are exponential the rate of maximum
 likelihood is failures over total time: B. Epstein and M. Sobel, J. Am. Stat. Assoc. 48 (1953) 486. Its interval is that
@@ -19,12 +19,10 @@ from rheoclast._checks import FloatArray
 from rheoclast.breakup.load_history import LoadHistory
 from rheoclast.fits import CONFIDENCE, checked_confidence
 
-ADVICE = "make one with load_history(trajectory, table, bonds)"
-
 
 @dataclass(frozen=True, eq=False)
 class WaitingTimes:
-    """How long aggregates last. Made by `first_exceedance_times`.
+    """How long aggregates last. Made by `first_failure_times`.
 
     Parameters
     ----------
@@ -59,8 +57,8 @@ class WaitingTimes:
 
 
 @dataclass(frozen=True)
-class BreakageRate:
-    """Events per time.
+class EventRate:
+    """Events per time: failures, crossings, or whatever was counted.
 
     Attributes
     ----------
@@ -68,19 +66,19 @@ class BreakageRate:
         In 1/s; zero if nothing happened.
     interval
         Bounds of its confidence interval in 1/s, from zero if nothing happened.
-    failures
-        Number of events.
+    events
+        Their number.
     time
         Total time in s in which they may have happened.
     """
 
     rate: float
     interval: tuple[float, float]
-    failures: int
+    events: int
     time: float
 
 
-def first_exceedance_times(histories: Iterable[LoadHistory], scale: float = 1.0) -> WaitingTimes:
+def first_failure_times(histories: Iterable[LoadHistory], *, level: float = 1.0) -> WaitingTimes:
     """Time from the start of each history to the first failure, censored where the history ends without one.
 
     Histories that start with an overloaded contact are counted apart: such an aggregate would not have come there.
@@ -89,20 +87,20 @@ def first_exceedance_times(histories: Iterable[LoadHistory], scale: float = 1.0)
     ----------
     histories
         Of any number of aggregates; a generator is read once and kept by none.
-    scale
-        Factor by which all load ratios are multiplied, as in `LoadHistory.first_failure`.
+    level
+        Load over strength at which contacts fail, as in `LoadHistory.first_failure`: 1/2 for contacts half as strong.
 
     Raises
     ------
     TypeError
         If something is not a load history.
     ValueError
-        If there is no history, or every one starts overloaded.
+        If there is no history, every one starts overloaded, or the level is not positive.
     """
     times, failed, overloaded, count = [], [], 0, 0
     for count, history in enumerate(histories, 1):
-        _checks.instance(f"histories[{count - 1}]", history, LoadHistory, ADVICE)
-        failure = history.first_failure(scale)
+        _checks.instance(f"histories[{count - 1}]", history, LoadHistory)
+        failure = history.first_failure(level)
         lasted = history.duration if failure is None else failure.time - float(history.times[0])
         if lasted == 0:
             overloaded += 1
@@ -112,24 +110,38 @@ def first_exceedance_times(histories: Iterable[LoadHistory], scale: float = 1.0)
     if not times:
         raise ValueError(
             f"histories: expected at least one that does not start overloaded, got {overloaded} of {count} that do; "
-            "give more histories, stronger bonds or a smaller scale"
+            "give more histories, stronger bonds or a higher level"
         )
     return WaitingTimes(np.array(times), np.array(failed), overloaded)
 
 
-def breakage_rate(waiting: WaitingTimes, confidence: float = CONFIDENCE) -> BreakageRate:
+@_checks.instances
+def breakage_rate(waiting: WaitingTimes, *, confidence: float = CONFIDENCE) -> EventRate:
     """Rate of breakage from waiting times, censored ones included: failures over total time.
 
     The interval holds for waiting times that are exponential and independent, as those of rare failures are. It is
     that of a Poisson count: with the chosen confidence or more.
+
+    Parameters
+    ----------
+    waiting
+        From `first_failure_times`, or measured. Those overloaded from the beginning do not count.
+    confidence
+        Of the interval.
+
+    Raises
+    ------
+    ValueError
+        If the confidence is not between 0 and 1.
+    TypeError
+        If the waiting times are something else.
     """
-    _checks.instance("waiting", waiting, WaitingTimes, "make one with first_exceedance_times(histories)")
-    return poisson_rate(int(waiting.failed.sum()), float(waiting.times.sum()), confidence)
+    return poisson_rate(int(waiting.failed.sum()), float(waiting.times.sum()), confidence=confidence)
 
 
 def exceedance_rate(
-    histories: Iterable[LoadHistory], scale: float = 1.0, confidence: float = CONFIDENCE
-) -> BreakageRate:
+    histories: Iterable[LoadHistory], *, level: float = 1.0, confidence: float = CONFIDENCE
+) -> EventRate:
     """Rate of breakage from up-crossings of the strength, per time below it.
 
     Every passage from holding to failing counts, as if whole aggregates took the place of broken ones at once, so that
@@ -142,8 +154,8 @@ def exceedance_rate(
 
     Parameters
     ----------
-    histories, scale
-        As in `first_exceedance_times`; parts of histories above the strength do not count as time.
+    histories, level
+        As in `first_failure_times`; parts of histories above the level do not count as time.
     confidence
         Of the interval.
 
@@ -152,18 +164,18 @@ def exceedance_rate(
     TypeError
         If something is not a load history.
     ValueError
-        If there is no time below the strength.
+        If there is no time below the level, or it is not positive.
     """
-    level = 1 / _checks.positive("scale", scale)
+    level = _checks.positive("level", level)
     crossings, below = 0, 0.0
     for k, history in enumerate(histories):
-        _checks.instance(f"histories[{k}]", history, LoadHistory, ADVICE)
+        _checks.instance(f"histories[{k}]", history, LoadHistory)
         above = history.exceedances(level)
         crossings, below = crossings + above.count, below + history.duration - above.duration
-    return poisson_rate(crossings, below, confidence)
+    return poisson_rate(crossings, below, confidence=confidence)
 
 
-def poisson_rate(events: int, time: float, confidence: float = CONFIDENCE) -> BreakageRate:
+def poisson_rate(events: int, time: float, *, confidence: float = CONFIDENCE) -> EventRate:
     """Rate of independent events, from their number in a given time in s, with Garwood's interval.
 
     Its bounds are χ²(α/2; 2n)/2T and χ²(1 − α/2; 2n + 2)/2T for n events in the time T with confidence 1 − α.
@@ -179,4 +191,4 @@ def poisson_rate(events: int, time: float, confidence: float = CONFIDENCE) -> Br
     tail = (1 - checked_confidence(confidence)) / 2
     lower = float(gammaincinv(events, tail)) if events else 0.0
     upper = float(gammaincinv(events + 1, 1 - tail))
-    return BreakageRate(events / time, (lower / time, upper / time), events, time)
+    return EventRate(events / time, (lower / time, upper / time), events, time)

@@ -86,6 +86,7 @@ class FragmentDistribution:
 
 def fragment_distribution(
     breakups: Iterable[Breakup] | Iterable[ArrayLike],
+    *,
     bins: int | ArrayLike = 20,
     confidence: float = CONFIDENCE,
     seed: int = 0,
@@ -112,7 +113,7 @@ def fragment_distribution(
     """
     edges = _edges(bins)
     tail = (1 - checked_confidence(confidence)) / 2
-    random = np.random.default_rng(_checks.whole_number("seed", seed, 0))
+    random = _checks.seeded(seed)
     each = _fractions(breakups)
     fractions, event = np.concatenate(each), np.repeat(np.arange(len(each)), [len(parts) for parts in each])
     shares, bounds = [], []

@@ -10,7 +10,7 @@ import numpy as np
 
 from rheoclast import _checks
 from rheoclast._checks import FloatArray
-from rheoclast.populations.breakage_rate import BreakageRate
+from rheoclast.populations.breakage_rate import EventRate
 from rheoclast.populations.fragment_distribution import EROSIVE, FragmentDistribution
 
 KERNEL_COLUMNS: Mapping[str, str] = MappingProxyType(
@@ -62,19 +62,18 @@ class KernelEntry:
     spheres: float
     radius_of_gyration: float
     dissipation: float
-    rate: BreakageRate
+    rate: EventRate
     critical_dissipation: float | None = None
     fragments: FragmentDistribution | None = None
 
     def __post_init__(self) -> None:
         for name in ("spheres", "radius_of_gyration", "dissipation"):
             _checks.positive(name, getattr(self, name))
-        _checks.instance("rate", self.rate, BreakageRate, "make one with breakage_rate(waiting)")
+        _checks.instance("rate", self.rate, EventRate)
         if self.critical_dissipation is not None:
             _checks.positive("critical_dissipation", self.critical_dissipation)
         if self.fragments is not None:
-            advice = "make one with fragment_distribution(breakups)"
-            _checks.instance("fragments", self.fragments, FragmentDistribution, advice)
+            _checks.instance("fragments", self.fragments, FragmentDistribution)
 
 
 def kernel_table(entries: Iterable[KernelEntry]) -> dict[str, FloatArray]:
@@ -107,7 +106,7 @@ def _row(entry: KernelEntry) -> dict[str, float]:
         "rate": entry.rate.rate,
         "rate_low": entry.rate.interval[0],
         "rate_high": entry.rate.interval[1],
-        "failures": entry.rate.failures,
+        "failures": entry.rate.events,
         "time": entry.rate.time,
         "critical_dissipation": np.nan if critical is None else critical,
         "mean_fragments": np.nan if fragments is None else fragments.mean_fragments,

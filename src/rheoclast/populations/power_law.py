@@ -26,7 +26,7 @@ class PowerLaw:
         return self.prefactor * _checks.positive_array("x", x, np.shape(x)) ** self.exponent
 
 
-def power_law(x: ArrayLike, y: ArrayLike, confidence: float = CONFIDENCE) -> PowerLaw:
+def power_law(x: ArrayLike, y: ArrayLike, *, confidence: float = CONFIDENCE) -> PowerLaw:
     """Exponent and prefactor of y over x, by least squares of ln y on ln x.
 
     Parameters

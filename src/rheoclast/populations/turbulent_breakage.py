@@ -79,7 +79,7 @@ def critical_dissipation(magnitude: float, kinematic_viscosity: float) -> float:
 
 
 def fitted_critical_dissipation(
-    dissipations: ArrayLike, rates: ArrayLike, kinematic_viscosity: float, confidence: float = CONFIDENCE
+    dissipations: ArrayLike, rates: ArrayLike, kinematic_viscosity: float, *, confidence: float = CONFIDENCE
 ) -> CriticalDissipation:
     """The critical dissipation by which Kusters' law describes rates of breakage best.
 

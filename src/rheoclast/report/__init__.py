@@ -1,4 +1,4 @@
-"""Results of the command line as one page for any browser: summary, tables, charts, and the aggregate in 3-D."""
+"""Results of the command line as one page for any browser: key figures, tables, charts, and the aggregate in 3-D."""
 
 from rheoclast.report.page import write_report
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from rheoclast._checks import FloatArray
 from rheoclast.particles.spheres import Spheres
+from rheoclast.report.numbers import shortened
 from rheoclast.report.result import Result, Table
 from rheoclast.report.wording import PREFIXED
 from rheoclast.view.colours import COMPRESSED, PULLED, UNLOADED
@@ -20,9 +21,11 @@ from rheoclast.view.fragments import COLOURS, REST
 from rheoclast.view.projection import principal_axes, view_axes
 from rheoclast.view.quantities import prefixed, symmetric_limit
 
-DIGITS, PLACES = 5, 4  # of numbers in tables, and decimals of lengths in the scene
-WHOLE = ("contact", "i", "j", "failure", "fragment", "spheres", "contacts")
-ROUNDING = 1e-12  # of what is about 1
+PLACES = 4  # decimals of lengths in the scene
+WHOLE = (
+    *("contact", "i", "j", "failure", "fragment", "spheres", "contacts"),
+    *("piece", "parent", "generation", "failures"),
+)
 LARGEST_OVERLAP = 2.0  # mean radii; what was accepted when the results were made is accepted again
 Content = dict[str, Any]
 
@@ -74,6 +77,18 @@ FRAGMENTS = (
     Quantity("shape_anisotropy", "Shape anisotropy"),
     Quantity("coordination", "Contacts per sphere"),
 )
+PIECES = (
+    Quantity("piece", "Piece"),
+    Quantity("parent", "Came from"),
+    Quantity("generation", "Generation"),
+    Quantity("spheres", "Spheres"),
+    Quantity("contacts", "Contacts"),
+    Quantity("radius_of_gyration", "Radius of gyration", "length"),
+    Quantity("failures", "Failures"),
+    Quantity("initiation_rate", "First fails at", "rate"),
+    Quantity("breakup_rate", "Splits at", "rate"),
+    Quantity("holds", "Holds"),
+)
 
 
 def content(result: Result) -> Content:
@@ -84,6 +99,11 @@ def content(result: Result) -> Content:
     if result.fragments:
         title = "Pieces that hold" if "cascade" in result.summary else "Fragments"
         tables["fragments"] = _shown(title, result.fragments, FRAGMENTS, result)
+    if result.pieces:
+        pieces = {**result.pieces, "holds": np.where(result.pieces["holds"] == 1, "yes", "no")}
+        tables["pieces"] = _shown("All pieces of the cascade", pieces, PIECES, result)
+        parents = tables["pieces"]["rows"]["parent"]
+        tables["pieces"]["rows"]["parent"] = [None if parent < 0 else parent for parent in parents]
     return {
         "scene": _scene(result),
         "loads": [_load(result, load) for load in LOADS if load.name in result.contacts],
@@ -98,7 +118,7 @@ def _scene(result: Result) -> Content:
     spheres = Spheres(
         np.stack([result.spheres[axis] for axis in "xyz"], axis=1), result.spheres["radius"], LARGEST_OVERLAP
     )
-    radius, center = float(spheres.radii.mean()), spheres.center_of_mass
+    radius, center = spheres.mean_radius, spheres.center_of_mass
     points = np.stack([result.contacts[f"point_{axis}"] for axis in "xyz"], axis=1)
     rates, directions = principal_axes(result.flow.strain_rate)
     fragment = result.spheres.get("fragment")
@@ -175,12 +195,14 @@ def _scale(result: Result, table: Table, quantity: Quantity) -> tuple[float, str
     unit = result.units[quantity.unit] if quantity.unit else ""
     if unit not in PREFIXED:
         return 1.0, unit
-    return prefixed(float(np.abs(table[quantity.name]).max(initial=0.0)), unit)
+    largest = (
+        float(np.abs(table[name]).max(initial=0.0))
+        for name in (quantity.name, f"{quantity.name}_error")
+        if name in table
+    )
+    return prefixed(next(filter(None, largest), 0.0), unit)
 
 
 def _numbers(values: NDArray[Any], divisor: float) -> list[Any]:
     """Values as short as they are shown."""
-    if values.dtype.kind == "U":
-        return values.tolist()
-    rounding = np.abs(values / divisor) < ROUNDING
-    return [float(f"{value:.{DIGITS}g}") for value in np.where(rounding, 0.0, values / divisor)]
+    return values.tolist() if values.dtype.kind == "U" else shortened(values, divisor)

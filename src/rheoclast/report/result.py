@@ -22,9 +22,16 @@ Table = Mapping[str, NDArray[Any]]
 SI_UNITS = {"length": "m", "force": "N", "moment": "N m", "rate": "1/s"}
 NEEDED = ("summary.json", "contacts.csv", "spheres.csv")
 CONTACT_COLUMNS = ("i", "j", "point_x", "point_y", "point_z", "tension", "shear", "bending", "twisting", "load_ratio")
+FORCES, MOMENTS = ("tension", "shear", "worst_tension"), ("bending", "twisting")
+RATIOS = ("load_ratio", "worst_load_ratio")
+ROUNDING = 1e-12
 SPHERE_COLUMNS = ("x", "y", "z", "radius")
 FAILURE_COLUMNS = ("failure", "contact", "i", "j", "rate", "reached", "criterion", "overload", "radial_position")
 FRAGMENT_COLUMNS = ("fragment", "spheres", "contacts", "radius_of_gyration")
+PIECE_COLUMNS = (
+    *("piece", "parent", "generation", "spheres", "contacts", "radius_of_gyration", "holds", "failures"),
+    *("initiation_rate", "breakup_rate"),
+)
 STRESS_KEYS = ("aggregate", "model", "flow", "largest", "most_tensioned", "given_orientation", "worst_orientation")
 BREAK_KEYS = (
     *("spheres", "contacts", "mean_coordination", "radius_of_gyration_m", "model", "order", "viscosity_Pa_s"),
@@ -45,9 +52,9 @@ class Result:
         Where the files are.
     summary
         The content of summary.json.
-    contacts, spheres, failures, fragments
-        Columns by name, without the unit at its end: "tension", not "tension_N"; the last two are empty unless the
-        aggregate was broken.
+    contacts, spheres, failures, fragments, pieces
+        Columns by name, without the unit at its end: "tension", not "tension_N"; failures and fragments are empty
+        unless the aggregate was broken, pieces unless its fragments were followed in a cascade.
     """
 
     folder: Path
@@ -56,6 +63,7 @@ class Result:
     spheres: Table
     failures: Table
     fragments: Table
+    pieces: Table
 
     @property
     def is_breakup(self) -> bool:
@@ -93,21 +101,22 @@ def read_result(folder: str | os.PathLike[str]) -> Result:
     path = Path(folder)
     if not path.is_dir():
         what = "a file" if path.exists() else "nothing of that name"
-        raise FileNotFoundError(f"{path}: expected a folder with the results of stress or break, got {what}")
+        raise FileNotFoundError(f"{path}: expected a folder with the results of stress, break or survey, got {what}")
     missing = [name for name in NEEDED if not (path / name).is_file()]
     if missing:
         raise FileNotFoundError(
-            f"{path}: expected the results of stress or break, got a folder without {', '.join(missing)}; "
+            f"{path}: expected the results of stress, break or survey, got a folder without {', '.join(missing)}; "
             f"write them with rheoclast stress FILE --output {path}"
         )
     summary = _summary(path / "summary.json")
     spheres = _table(path / "spheres.csv", SPHERE_COLUMNS)
-    contacts = _table(path / "contacts.csv", CONTACT_COLUMNS)
+    contacts = _without_rounding_errors(_table(path / "contacts.csv", CONTACT_COLUMNS), spheres["radius"])
     _refuse_wrong_pairs(path / "contacts.csv", contacts, len(spheres["x"]))
     broken = "outcome" in summary
     failures = _table(path / "failures.csv", FAILURE_COLUMNS) if broken and summary["initiation_rate_per_s"] else {}
     fragments = _table(path / "fragments.csv", FRAGMENT_COLUMNS) if broken else {}
-    return Result(path, summary, contacts, spheres, failures, fragments)
+    pieces = _table(path / "pieces.csv", PIECE_COLUMNS, are_finite=False) if "cascade" in summary else {}
+    return Result(path, summary, contacts, spheres, failures, fragments, pieces)
 
 
 def _summary(path: Path) -> Mapping[str, Any]:
@@ -125,7 +134,7 @@ def _summary(path: Path) -> Mapping[str, Any]:
     return summary
 
 
-def _table(path: Path, wanted: tuple[str, ...]) -> Table:
+def _table(path: Path, wanted: tuple[str, ...], *, are_finite: bool = True) -> Table:
     """Columns of numbers, and of words where not all cells are numbers."""
     file = load(path)
     rows = list(named_rows(file))
@@ -139,21 +148,35 @@ def _table(path: Path, wanted: tuple[str, ...]) -> Table:
     if len(rows) == 1:
         return {name: np.empty(0) for name in names}
     columns = zip(*(cells for _, cells in rows[1:]), strict=True)
-    return {name: _column(file, name, cells) for name, cells in zip(names, columns, strict=True)}
+    return {name: _column(file, name, cells, are_finite) for name, cells in zip(names, columns, strict=True)}
 
 
-def _column(file: TextFile, name: str, cells: tuple[str, ...]) -> NDArray[Any]:
+def _column(file: TextFile, name: str, cells: tuple[str, ...], are_finite: bool) -> NDArray[Any]:
     try:
         values = np.array(cells, dtype=np.float64)
     except ValueError:
         if name == "criterion":
             return np.array(cells)
         raise file.error(f"expected numbers in the column {name}, got words; write the file anew") from None
-    if not np.isfinite(values).all():
+    if are_finite and not np.isfinite(values).all():
         raise file.error(
             f"expected finite numbers in the column {name}, got {cells[int(np.isfinite(values).argmin())]}"
         )
     return values
+
+
+def _without_rounding_errors(contacts: Table, radii: NDArray[np.float64]) -> Table:
+    """The same loads, with zeros for those that are nothing beside the largest force of any contact."""
+    force = max(float(np.abs(contacts[name]).max(initial=0.0)) for name in FORCES if name in contacts)
+    sizes = {
+        **dict.fromkeys(FORCES, force),
+        **dict.fromkeys(MOMENTS, force * radii.mean()),
+        **dict.fromkeys(RATIOS, 1.0),
+    }
+    return {
+        name: np.where(np.abs(values) > ROUNDING * sizes[name], values, 0.0) if name in sizes else values
+        for name, values in contacts.items()
+    }
 
 
 def _refuse_wrong_pairs(path: Path, contacts: Table, spheres: int) -> None:

@@ -7,12 +7,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from rheoclast._checks import FloatArray
 from rheoclast.report.result import Result
 from rheoclast.report.wording import flow_name, percent, written
 from rheoclast.view.fragments import counted
 
 MOST_SIZES = 8
+MEANINGLESS = 1e3  # relative error of a tension that is zero but for rounding
 RULES = {"weakest": "the weakest contact fails first", "overloaded": "all overloaded contacts fail at once"}
 MODELS = {"StokesianDynamics": "Stokesian dynamics", "FreeDraining": "free draining", "ExposedArea": "exposed area"}
 
@@ -50,12 +53,12 @@ def summary(result: Result) -> Summary:
 
 def _stress(result: Result) -> Summary:
     told, units = result.summary, result.units
-    shape, largest = told["aggregate"], told["largest"]
+    shape = told["aggregate"]
     lead = (
         f"{_size(shape['spheres'], shape['contacts'])} in {_at_rate(result)}: "
         "the load on every contact, and the contact that fails first as the flow is made faster."
     )
-    loads = tuple((f"Largest {load}", _largest(load, value, units)) for load, value in largest.items())
+    loads = tuple((f"Largest {load}", _largest(load, value, units)) for load, value in _largest_loads(result).items())
     groups = (
         Group("Aggregate", _shape(shape, units)),
         Group("Flow", _liquid(result)),
@@ -66,14 +69,14 @@ def _stress(result: Result) -> Summary:
 
 def _stress_figures(result: Result) -> tuple[Figure, ...]:
     told, units = result.summary, result.units
-    most = told["most_tensioned"]
+    most, tension = told["most_tensioned"], _largest_loads(result)["tension"]
     pair = "–".join(str(sphere) for sphere in most["pair"])
-    place = f"contact {most['contact']}, spheres {pair}"
+    place = f"contact {most['contact']}, spheres {pair}" if tension > 0 else "no contact is pulled apart"
     ratio = float(result.contacts["load_ratio"].max())
     return (
         _critical("Critical rate, as it lies", told["given_orientation"], units["rate"]),
         _critical("Critical rate, worst orientation", told["worst_orientation"], units["rate"]),
-        Figure("Largest tension", written(told["largest"]["tension"], units["force"]), place),
+        Figure("Largest tension", _largest("tension", tension, units), place),
         Figure("Largest load over strength", written(ratio, digits=3), "fails at 1"),
     )
 
@@ -87,24 +90,31 @@ def _liquid(result: Result) -> tuple[tuple[str, str], ...]:
     model = result.summary["model"]
     return (
         ("Flow", _at_rate(result)),
-        ("Velocity gradient", f"{_matrix(result.flow.gradient)} 1/s"),
+        ("Velocity gradient", f"{matrix(result.flow.gradient)} 1/s"),
         ("Viscosity", written(model["viscosity_Pa_s"], "Pa s")),
         ("Hydrodynamics", _model(model["name"], model["order"])),
     )
 
 
+def _largest_loads(result: Result) -> dict[str, float]:
+    """Of all contacts, by kind of load."""
+    tension = result.contacts["tension"]
+    others = {load: float(np.abs(result.contacts[load]).max()) for load in ("shear", "bending", "twisting")}
+    return {"tension": float(tension.max()), "compression": -float(tension.min()), **others}
+
+
 def _largest(load: str, value: float, units: Mapping[str, str]) -> str:
-    """A load in words; a compression that is not positive is none."""
-    if load == "compression" and value <= 0:
+    """A load in words; a tension or a compression that is not positive is none."""
+    if value <= 0:
         return "none"
     return written(value, units["moment" if load in ("bending", "twisting") else "force"])
 
 
 def _critical(label: str, failure: Mapping[str, Any], unit: str) -> Figure:
-    if failure["contact"] is None:
+    error = failure.get("critical_rate_error")
+    if failure["contact"] is None or (error or 0.0) > MEANINGLESS:
         return Figure(label, "none", "no contact is pulled apart")
     note = f"contact {failure['contact']}, by {failure['criterion']}"
-    error = failure["critical_rate_error"]
     return Figure(label, written(failure["critical_rate"], unit), note if error is None else f"{_error(error)}; {note}")
 
 
@@ -134,7 +144,7 @@ def _breakup(result: Result) -> Summary:
     flow = (
         ("Flow", kind),
         ("Orientation", told["orientation"]),
-        ("Velocity gradient, over its rate", _matrix(result.flow.gradient / result.flow.rate)),
+        ("Velocity gradient, over its rate", matrix(result.flow.gradient / result.flow.rate)),
         ("Viscosity", written(told["viscosity_Pa_s"], "Pa s")),
         ("Hydrodynamics", _model(told["model"], told["order"])),
     )
@@ -149,16 +159,29 @@ def _breakup(result: Result) -> Summary:
 
 def _breakup_figures(told: Mapping[str, Any]) -> tuple[Figure, ...]:
     error, ties = told["initiation_rate_error"], told["near_ties"]
+    held = told.get("cascade")
     first, last = told["initiation_rate_per_s"], told["breakup_rate_per_s"]
     sizes = told["fragments"]
     return (
         Figure("Initiation rate", _rate(first), "" if error is None else _error(error)),
-        Figure(
-            "Breakup rate", _rate(last), "stays whole" if last is None else f"{written(last / first)} × initiation rate"
-        ),
+        Figure("Breakup rate", _rate(last), _compared(first, last)),
         Figure("Failed contacts", str(told["failures"]), f"{ties} of them near ties" if ties else ""),
         Figure("Fragments", str(len(sizes)), _sizes(sizes)),
+        *([] if held is None else [_held(held)]),
     )
+
+
+def _compared(first: float | None, last: float | None) -> str:
+    """The breakup rate in terms of the initiation rate."""
+    if first is None or last is None:
+        return "stays whole"
+    return "with the first failure" if last == first else f"{written(last / first)} × initiation rate"
+
+
+def _held(cascade: Mapping[str, Any]) -> Figure:
+    """What is left once the fragments have been broken too."""
+    sizes = cascade["sizes"]
+    return Figure(f"Pieces that hold at {written(cascade['rate_per_s'], '1/s')}", str(len(sizes)), _sizes(sizes))
 
 
 def _rate(rate: float | None) -> str:
@@ -209,6 +232,6 @@ def _model(name: str, order: int | None) -> str:
     return MODELS.get(name, name) + (f", multipole order {order}" if order else "")
 
 
-def _matrix(matrix: FloatArray) -> str:
+def matrix(values: FloatArray) -> str:
     """Nine numbers in brackets, row by row."""
-    return "[" + "; ".join(", ".join(written(value, digits=3) for value in row) for row in matrix) + "]"
+    return "[" + "; ".join(", ".join(written(value, digits=3) for value in row) for row in values) + "]"

@@ -6,10 +6,11 @@ from dataclasses import dataclass, field
 from typing import final
 
 from rheoclast._checks import FloatArray
+from rheoclast.progress import Progress
 from rheoclast.stokes.basis import MultipoleBasis
 from rheoclast.stokes.dense import DenseCholesky
 from rheoclast.stokes.iterative import BlockConjugateGradients
-from rheoclast.stokes.mobility import Mobility, Progress
+from rheoclast.stokes.mobility import Mobility
 from rheoclast.stokes.solver import Solution, Solver
 
 FEWEST_UNKNOWNS = (1_000, 3_000)

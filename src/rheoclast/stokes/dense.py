@@ -11,8 +11,9 @@ from scipy.linalg import LinAlgError, cho_factor, solve_triangular
 from rheoclast._checks import FloatArray
 from rheoclast._threads import one_blas_thread
 from rheoclast.errors import GeometryError
+from rheoclast.progress import Progress
 from rheoclast.stokes.basis import MultipoleBasis
-from rheoclast.stokes.mobility import Mobility, Progress
+from rheoclast.stokes.mobility import Mobility
 from rheoclast.stokes.solver import NOT_DEFINITE, Convergence, Solution, Solver, refuse_beyond_memory
 
 FEWEST_FOR_THREADS = 2_000

@@ -12,9 +12,10 @@ import numpy as np
 from rheoclast import _checks
 from rheoclast._checks import FloatArray
 from rheoclast._threads import one_blas_thread
+from rheoclast.progress import Progress
 from rheoclast.stokes.basis import HIGHEST_CLOSED_ORDER, MultipoleBasis
 from rheoclast.stokes.conjugate_gradients import conjugate_gradients
-from rheoclast.stokes.mobility import Mobility, Progress
+from rheoclast.stokes.mobility import Mobility
 from rheoclast.stokes.solver import Convergence, Solution, Solver, refuse_beyond_memory
 
 if TYPE_CHECKING:

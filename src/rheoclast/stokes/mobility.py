@@ -6,19 +6,17 @@ positive definite for spheres that do not overlap, whatever their radii.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from rheoclast._checks import FloatArray
+from rheoclast.progress import Progress
 from rheoclast.stokes.basis import MultipoleBasis
 from rheoclast.stokes.pair_blocks import PairCoefficients
 from rheoclast.vectors import elementary_velocities
-
-Progress = Callable[[str, float], None]
-"""Called with the name of the step and the fraction of it that is done."""
 
 PAIR_CHUNK_BYTES = 64e6
 ROWS_AT_A_TIME = 64

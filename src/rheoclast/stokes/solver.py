@@ -6,8 +6,9 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 from rheoclast._checks import FloatArray
+from rheoclast.progress import Progress
 from rheoclast.stokes.basis import MultipoleBasis
-from rheoclast.stokes.mobility import Mobility, Progress
+from rheoclast.stokes.mobility import Mobility
 
 NOT_DEFINITE = (
     "the mobility of these spheres is not positive definite, as happens when spheres overlap; "

@@ -58,7 +58,7 @@ def exponential(matrix: FloatArray, square: FloatArray, factor: float) -> FloatA
     sum_a, sum_b, sum_c = 1.0, 0.0, 0.0
     size = np.sqrt(np.sum(matrix**2))
     order, bound = 0, 1.0
-    while bound > ROUNDING:
+    while ROUNDING < bound < np.inf:
         order += 1
         share = factor / order
         a, b, c = share * determinant * c, share * (a + half_trace * c), share * b

@@ -51,8 +51,9 @@ def recent_deformation_histories(
 
     Notes
     -----
-    The mean square of the rotation rate is 0.84 of that of the strain rate, where homogeneous turbulence has 1, and
-    rotation loses its memory in 3 Kolmogorov times, where direct simulations have 7.
+    Strain, on which all loads depend, has an integral correlation time of 4 Kolmogorov times, where direct simulations
+    have 2.3, so that loads outlast those of turbulence. Rotation has 3, where they have 7, and the mean square of its
+    rate is 0.84 of that of the strain rate, where they have 1.
 
     Raises
     ------

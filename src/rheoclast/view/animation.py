@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Iterator
 from dataclasses import dataclass
 from os import PathLike
@@ -26,8 +27,8 @@ from rheoclast.view.crack import (
     sequence_colours,
     write_heading,
 )
-from rheoclast.view.fragments import counted, draw_sizes
-from rheoclast.view.layout import HEADER, LARGEST_RADIUS, MARGIN, Layout, draw_title, image_axes, refuse_small
+from rheoclast.view.fragments import COLOURS, counted, draw_sizes
+from rheoclast.view.layout import HEADER, LARGEST_RADIUS, MARGIN, Layout, image_axes, refuse_small
 from rheoclast.view.scene import Scene, scene
 
 if TYPE_CHECKING:
@@ -42,7 +43,9 @@ MOST_STEPS = 60  # in which contacts fail
 PARTING_STEPS = 7
 START, SPLIT, END = 0.8, 1.0, 2.5  # seconds that the picture rests
 PALETTE, FAILURE_COLOURS = 64, 16
+ALIKE = 8  # of 255: Pillow does not tell colours apart that are closer
 SMALLEST_RING = 7  # points
+PLAYABLE = ["-pix_fmt", "yuv420p", "-movflags", "+faststart"]  # by every browser, and before all of it has come
 
 
 @dataclass(frozen=True)
@@ -74,14 +77,15 @@ def animate_crack(
 
     Parameters
     ----------
-    breakup, view_direction, length_unit, flow, title
+    breakup, view_direction
         As in `draw_crack`.
     file
-        Path that ends in .gif or .mp4, or a binary file, which gets a GIF. An MP4 needs the program ffmpeg.
+        Path that ends in .gif or .mp4, or a binary file, which gets a GIF. An MP4 needs the program ffmpeg, which
+        comes with ``pip install "rheoclast[film]"`` or is on the PATH.
     frames_per_second
         Steps per second.
-    size
-        Largest width and height in inches; the height shrinks to fit.
+    size, length_unit, flow, title
+        As in `draw`.
     dots_per_inch
         Resolution; the size of the file grows with its square.
 
@@ -94,50 +98,56 @@ def animate_crack(
     RuntimeError
         If an MP4 is wanted and ffmpeg is not found.
     """
-    from matplotlib.figure import Figure
-
-    ending = _ending(file)
+    encoder = _encoder(file)
     refuse_small(size, SMALLEST_SIZE)
     frames_per_second = _checks.positive("frames_per_second", frames_per_second)
     dots_per_inch = _checks.positive("dots_per_inch", dots_per_inch)
     seen = scene(breakup, view_direction)
     layout, frame = _window(seen, breakup.splits, size, HEADER if title is not None else 0.0, dots_per_inch)
-    figure = Figure(figsize=(layout.width, layout.height), dpi=dots_per_inch, facecolor="white")
-    if title is not None:
-        draw_title(figure, layout, title, labels.INK)
+    figure = labels.titled_figure(layout, title)
     chart = draw_footer(figure, layout, seen, breakup, length_unit, flow)
     steps = _steps(len(breakup.failures), breakup.splits, frames_per_second)
     film = _played(figure, layout, frame, seen, breakup, chart, steps)
-    if ending == ".mp4":
-        _write_mp4(figure, film, file, frames_per_second)
-    else:
+    if encoder is None:
         _write_gif(figure, film, file)
+    else:
+        _write_mp4(figure, film, file, frames_per_second, encoder)
 
 
-def _ending(file: str | PathLike[str] | IO[bytes]) -> str:
-    """Kind of file: ".gif" or ".mp4"."""
-    from matplotlib.animation import FFMpegWriter
-
-    if not isinstance(file, str | PathLike):
-        return ".gif"
-    ending = Path(file).suffix.lower()
+def _encoder(file: str | PathLike[str] | IO[bytes]) -> str | None:
+    """Path of the program that an MP4 needs, None for a GIF."""
+    ending = Path(file).suffix.lower() if isinstance(file, str | PathLike) else ".gif"
     if ending not in (".gif", ".mp4"):
         raise ValueError(f"file: expected a path that ends in .gif or .mp4, got {str(file)!r}")
-    if ending == ".mp4" and not FFMpegWriter.isAvailable():
-        raise RuntimeError("file: an .mp4 needs the program ffmpeg, which is not found; install it or write a .gif")
-    return ending
+    return _ffmpeg() if ending == ".mp4" else None
+
+
+def _ffmpeg() -> str:
+    """Path of the program ffmpeg: that of the package imageio-ffmpeg, or else the one on the PATH."""
+    try:
+        from imageio_ffmpeg import get_ffmpeg_exe
+
+        return get_ffmpeg_exe()
+    except (ImportError, RuntimeError):  # not installed, or installed without the program
+        found = shutil.which("ffmpeg")
+    if found is None:
+        raise RuntimeError(
+            "file: an .mp4 needs the program ffmpeg, which is not found; "
+            'install it by `pip install "rheoclast[film]"`, or put one on the PATH, or write a .gif'
+        )
+    return found
 
 
 def _window(
     seen: Scene, splits: bool, size: tuple[float, float], header: float, dots_per_inch: float
 ) -> tuple[Layout, Frame]:
-    """Layout and a window in which all of the parting stays in sight."""
+    """Layout, of even size as H.264 asks, and a window in which all of the parting stays in sight."""
     corners = [seen.corners(progress) for progress in (np.linspace(0, 1, PARTING_STEPS + 1) if splits else (0.0,))]
     low, high = np.min([pair[0] for pair in corners], axis=0), np.max([pair[1] for pair in corners], axis=0)
     free = np.array(size) - 2 * MARGIN - [0, header + HEADING + FOOTER]
     scale = min(float((free / (high - low)).min()), LARGEST_RADIUS / float(seen.radii.max()))
     picture = scale * float(high[1] - low[1]) + 2 * MARGIN + HEADING
-    layout = Layout.rounded(size[0], header, picture, FOOTER, scale, dots_per_inch)
+    layout = Layout.rounded(size[0], header, picture, FOOTER, scale, dots_per_inch).even()
     width, height = layout.pixels
     return layout, Frame.around((low, high), width, height - round(HEADING * dots_per_inch), layout.scale)
 
@@ -169,7 +179,7 @@ def _played(
     box = layout.pixel_box(0, round(layout.footer * layout.dots_per_inch), frame.width, frame.height)
     axes = image_axes(figure, box, ghost(seen, frame))
     heading = write_heading(axes, "")
-    marker = None if chart is None else chart.axvline(0.5, color=labels.INK, linewidth=0.8)
+    marker = None if chart is None else chart.axvline(0.5, color=labels.INK, linewidth=0.8, clip_on=False)
     draw_sizes(axes, breakup)
     for step in steps:
         heading.set_text(_heading(breakup, step))
@@ -196,16 +206,14 @@ def _latest(axes: Axes, seen: Scene, frame: Frame, failure: int) -> Artist:
 
 
 def _heading(breakup: Breakup, step: Step) -> str:
-    """What is seen at a step."""
+    """What is seen at a step; the number that changes is last, so that no words move."""
     failures = breakup.failures
     if step.progress:
         return counted(len(breakup.fragments), "fragment")
     if not step.failed:
         return f"{counted(len(failures), 'contact')} will fail" if failures else "no contact fails at any rate"
-    number = f"failure {step.failed} of {len(failures)}"
-    if step.failed == 1:
-        return f"{number}, at the initiation rate"
-    return f"{number}, at {failures[step.failed - 1].rate / failures[0].rate:.3g} times the initiation rate"
+    ratio = failures[step.failed - 1].rate / failures[0].rate
+    return f"failure {step.failed} of {len(failures)}, rate / initiation rate = {ratio:.3g}"
 
 
 def _write_gif(figure: Figure, film: Iterator[Step], file: str | PathLike[str] | IO[bytes]) -> None:
@@ -225,7 +233,10 @@ def _write_gif(figure: Figure, film: Iterator[Step], file: str | PathLike[str] |
 
 
 def _palette(pictures: list[PillowImage]) -> PillowImage:
-    """Few colours: those of failures, and such as suit the first picture, the one at the last failure and the last."""
+    """Few colours: some that are kept, others that suit the first picture, that at the last failure, and the last.
+
+    White, fragments of few spheres and rare failures would otherwise take on the colour of what is more frequent.
+    """
     from PIL import Image
 
     width, height = pictures[0].size
@@ -233,19 +244,24 @@ def _palette(pictures: list[PillowImage]) -> PillowImage:
     montage = Image.new("RGB", (width, height * len(chosen)))
     for k, picture in enumerate(chosen):
         montage.paste(picture, (0, k * height))
-    count = PALETTE - FAILURE_COLOURS
-    fitting = montage.quantize(count, dither=Image.Dither.NONE).convert("RGB").getcolors(count) or []
-    failures = np.round(255 * sequence_colours(FAILURE_COLOURS)).astype(int)
+    kept = np.round(255 * np.concatenate([np.ones((1, 3)), COLOURS, sequence_colours(FAILURE_COLOURS)]))
+    count = PALETTE - len(kept)
+    found = montage.quantize(count, dither=Image.Dither.NONE).convert("RGB").getcolors(count) or []
+    fitting = np.array([colour for _, colour in found])
+    apart = np.abs(fitting[:, None] - kept).max(axis=2).min(axis=1) > ALIKE
     palette = Image.new("P", (1, 1))
-    palette.putpalette([*np.array([colour for _, colour in fitting]).ravel().tolist(), *failures.ravel().tolist()])
+    palette.putpalette(np.concatenate([kept, fitting[apart]]).astype(int).ravel().tolist())
     return palette
 
 
-def _write_mp4(figure: Figure, film: Iterator[Step], file: str | PathLike[str] | IO[bytes], rate: float) -> None:
+def _write_mp4(
+    figure: Figure, film: Iterator[Step], file: str | PathLike[str] | IO[bytes], rate: float, encoder: str
+) -> None:
+    import matplotlib
     from matplotlib.animation import FFMpegWriter
 
-    writer = FFMpegWriter(fps=rate)  # type: ignore[arg-type]  # ffmpeg takes fractions
-    with writer.saving(figure, str(file), figure.dpi):
+    writer = FFMpegWriter(fps=rate, codec="h264", extra_args=PLAYABLE)  # type: ignore[arg-type]  # fps may be a fraction
+    with matplotlib.rc_context({"animation.ffmpeg_path": encoder}), writer.saving(figure, str(file), figure.dpi):
         for step in film:
             for _ in range(max(1, round(step.seconds * rate))):
                 writer.grab_frame()

@@ -20,7 +20,6 @@ from rheoclast.view.layout import (
     MARGIN,
     Box,
     Layout,
-    draw_title,
     image_axes,
     refuse_small,
 )
@@ -88,21 +87,13 @@ def draw_crack(
         From `break_up`. If it does not split, there are no fragments to show.
     view_direction
         (3,) from the aggregate to the viewer. By default the two largest fragments are side by side.
-    size
-        Largest width and height of the figure in inches; the height shrinks to fit.
-    length_unit
-        Unit of the coordinates for the scale bar, which shows a decimal prefix; None when they are dimensionless.
-    flow
-        Linear flow whose principal strain rates are shown as arrows, seen from the same side as the aggregate.
-    title
-        Text above the picture.
-    dots_per_inch
-        Resolution; 300 suits print.
+    size, length_unit, flow, title, dots_per_inch
+        As in `draw`.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Not registered with pyplot. Save it with `save` or its own `savefig`.
+        As from `draw`.
 
     Raises
     ------
@@ -111,15 +102,11 @@ def draw_crack(
     ValueError
         If the view direction is zero or the size too small.
     """
-    from matplotlib.figure import Figure
-
     refuse_small(size, SMALLEST_SIZE)
     dots_per_inch = _checks.positive("dots_per_inch", dots_per_inch)
     seen = scene(breakup, view_direction)
     layout, boxes, frames = _panels(seen, breakup.splits, size, HEADER if title is not None else 0.0, dots_per_inch)
-    figure = Figure(figsize=(layout.width, layout.height), dpi=dots_per_inch, facecolor="white")
-    if title is not None:
-        draw_title(figure, layout, title, labels.INK)
+    figure = labels.titled_figure(layout, title)
     before = image_axes(figure, boxes[0], ghost(seen, frames[0]))
     draw_discs(before, seen, frames[0])
     _mark_first(before, seen, frames[0])
@@ -158,9 +145,8 @@ def pulled_apart(seen: Scene, frame: Frame, progress: float = 1.0) -> Image:
     """Image of the fragments after a share of their parting, with a spot where each failed contact was."""
     spheres = seen.pairs.T.ravel()
     points = seen.parting.moved(np.tile(seen.points, (2, 1)), spheres, progress)
-    reaches = SCAR * frame.scale * np.tile(seen.smaller_radii, 2)
-    colours = np.tile(sequence_colours(len(seen.pairs)), (2, 1))
-    scars = Collars(np.stack([spheres, spheres], axis=1), frame.pixels(points), reaches, colours)
+    radii, colours = frame.scale * np.tile(seen.smaller_radii, 2), np.tile(sequence_colours(len(seen.pairs)), (2, 1))
+    scars = Collars.around(np.stack([spheres, spheres], axis=1), frame.pixels(points), radii, SCAR, colours)
     return _rendered(seen, frame, progress, scars)
 
 

@@ -16,7 +16,6 @@ from rheoclast.view.layout import (
     LARGEST_RADIUS,
     MARGIN,
     Layout,
-    draw_title,
     extent,
     image_axes,
     refuse_small,
@@ -98,19 +97,13 @@ def draw_fragments(
     ----------
     breakup
         Whose fragments are drawn, with the number of spheres below each; of more than 24 the largest.
-    size
-        Largest width and height of the figure in inches; the height shrinks to fit.
-    length_unit
-        Unit of the coordinates for the scale bar, which shows a decimal prefix; None when they are dimensionless.
-    title
-        Text above the picture.
-    dots_per_inch
-        Resolution; 300 suits print.
+    size, length_unit, title, dots_per_inch
+        As in `draw`.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Not registered with pyplot. Save it with `save` or its own `savefig`.
+        As from `draw`.
 
     Raises
     ------
@@ -119,8 +112,6 @@ def draw_fragments(
     ValueError
         If the size is too small.
     """
-    from matplotlib.figure import Figure
-
     _checks.instance("breakup", breakup, Breakup, "make one with break_up(aggregate, response, bonds, flow)")
     refuse_small(size, SMALLEST_SIZE)
     dots_per_inch = _checks.positive("dots_per_inch", dots_per_inch)
@@ -131,13 +122,10 @@ def draw_fragments(
     scale = _scale(lengths, (size[0], size[1] - header - FOOTER), max(float(radii.max()) for _, radii in bodies))
     places, height = _shelves(scale * lengths, size[0])
     layout = Layout.rounded(size[0], header, height, FOOTER, scale, dots_per_inch)
-
-    figure = Figure(figsize=(layout.width, layout.height), dpi=dots_per_inch, facecolor="white")
+    figure = labels.titled_figure(layout, title)
     colours = [*COLOURS, *[REST] * MOST_SHOWN]
     for body, colour, low, place in zip(bodies, colours, corners[:, 0], places, strict=False):
         _draw_body(figure, layout, body, colour, low, place)
-    if title is not None:
-        draw_title(figure, layout, title, labels.INK)
     labels.draw_scale_bar(figure, layout.footer_box(0.03, 0.22, 0.05, 0.4), layout.scale, length_unit)
     if left := len(breakup.fragments) - len(bodies):
         note = f"and {left} more, of at most {counted(len(breakup.fragments[MOST_SHOWN]), 'sphere')}"

@@ -1,4 +1,4 @@
-"""What stands beside the spheres: scale bar, colour bar, axes, flow, and the mark on a critical contact."""
+"""What stands beside the spheres: title, scale bar, colour bar, axes, flow, and the mark on a critical contact."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from rheoclast._checks import FloatArray
 from rheoclast.view.colours import ColourScale
-from rheoclast.view.layout import Box
+from rheoclast.view.layout import Box, Layout
 from rheoclast.view.projection import principal_axes
 from rheoclast.view.quantities import minus, prefixed, quoted, round_down
 from rheoclast.view.rendering import Image
@@ -19,10 +19,21 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 INK, FAINT_INK = "#24282d", "#6d737a"
-SMALL, TINY = 9, 8  # points
+LARGE, SMALL, TINY = 11, 9, 8  # points
 EXTENDED, SHORTENED = "#c9370f", "#1c5fb4"
-MOST_ARROWS = 300
+MOST_ARROWS, ARROW_SPACING = 300, 9  # points
 END_ON = 0.2  # projected length of a unit vector that counts as pointing at the viewer
+
+
+def titled_figure(layout: Layout, title: str | None) -> Figure:
+    """White figure with its title above the picture."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=layout.figure_size, dpi=layout.dots_per_inch, facecolor="white")
+    if title is not None:
+        top = 1 - 0.6 * layout.header / layout.height
+        figure.text(0.5, top, title, ha="center", va="center", size=LARGE, color=INK)
+    return figure
 
 
 def draw_scale_bar(figure: Figure, box: Box, pixels_per_length: float, length_unit: str | None) -> None:
@@ -115,14 +126,20 @@ def draw_flow(figure: Figure, box: Box, view: FloatArray, strain_rate: FloatArra
 
 
 def draw_forces(axes: Axes, points: FloatArray, forces: FloatArray, reach: float, unit: str | None) -> None:
-    """Forces (N, 3) as arrows from points (N, 3) in pixels, the longest of length `reach`, and what that stands for."""
+    """Forces (N, 3) as arrows from points (N, 3) in pixels, the longest of length `reach`, and what that stands for.
+
+    Of very many, which would hide each other, the largest of each small square of the picture are drawn.
+    """
     size = np.linalg.norm(forces, axis=1)
     largest = float(size.max())
     if not largest > 0:
         return
-    shown = np.argsort(-size, kind="stable")[:MOST_ARROWS]
-    x, y, u, v = np.concatenate([points[shown, :2], reach / largest * forces[shown, :2]], axis=1).T
     pixel = axes.figure.dpi / 72
+    shown = np.argsort(-size, kind="stable")
+    if len(shown) > MOST_ARROWS:
+        squares = np.floor(points[shown, :2] / (ARROW_SPACING * pixel))
+        shown = shown[np.sort(np.unique(squares, axis=0, return_index=True)[1])][:MOST_ARROWS]
+    x, y, u, v = np.concatenate([points[shown, :2], reach / largest * forces[shown, :2]], axis=1).T
     axes.quiver(
         x,
         y,
@@ -141,7 +158,7 @@ def draw_forces(axes: Axes, points: FloatArray, forces: FloatArray, reach: float
     )
     note = f"arrows: force of the fluid, longest {quoted(largest, unit)}"
     if len(size) > MOST_ARROWS:
-        note += f" ({MOST_ARROWS} largest of {len(size)})"
+        note += f" ({len(shown)} of {len(size)} drawn)"
     axes.text(0.01, 0.99, note, transform=axes.transAxes, size=TINY, color=FAINT_INK, va="top")
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 LARGEST_RADIUS = 0.8  # inches
 MARGIN, FOOTER, HEADER = 0.18, 0.95, 0.34  # inches
 FOOTER_SQUARE = 0.7  # inches
+SLIVER = 1e-6  # pixels more for a figure and less for an image in its box, lest rounding cost or add one and blur it
 Box = tuple[float, float, float, float]
 
 
@@ -41,10 +42,21 @@ class Layout:
         width, header, picture, footer = (np.round(lengths * dots_per_inch) / dots_per_inch).tolist()
         return cls(width, header, picture, footer, inches_per_metre, dots_per_inch)
 
+    def even(self) -> Layout:
+        """The same, a pixel narrower or lower where the figure's width or height in pixels is odd."""
+        dot = 1 / self.dots_per_inch
+        across, along = (round(length * self.dots_per_inch) for length in (self.width, self.height))
+        return replace(self, width=self.width - across % 2 * dot, picture=self.picture - along % 2 * dot)
+
     @property
     def height(self) -> float:
         """Height of the figure."""
         return self.header + self.picture + self.footer
+
+    @property
+    def figure_size(self) -> tuple[float, float]:
+        """Width and height of the figure."""
+        return self.width + SLIVER / self.dots_per_inch, self.height + SLIVER / self.dots_per_inch
 
     @property
     def scale(self) -> float:
@@ -112,11 +124,8 @@ def image_axes(figure: Figure, box: Box, image: Image) -> Axes:
     """Axes in pixels, as large as the image (H, W, 4), that show it one to one."""
     height, width = image.shape[:2]
     axes = figure.add_axes(box)
-    axes.imshow(image, origin="lower", extent=(0, width, 0, height), aspect="auto", interpolation="antialiased")
+    inside = (SLIVER, width - SLIVER, SLIVER, height - SLIVER)
+    axes.imshow(image, origin="lower", extent=inside, aspect="auto", interpolation="antialiased")
+    axes.set(xlim=(0, width), ylim=(0, height))
     axes.set_axis_off()
     return axes
-
-
-def draw_title(figure: Figure, layout: Layout, title: str, colour: str) -> None:
-    """Line of text above the picture."""
-    figure.text(0.5, 1 - 0.6 * HEADER / layout.height, title, ha="center", va="center", size=11, color=colour)

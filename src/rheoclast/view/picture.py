@@ -21,7 +21,6 @@ from rheoclast.view.layout import (
     LARGEST_RADIUS,
     MARGIN,
     Layout,
-    draw_title,
     extent,
     image_axes,
     refuse_small,
@@ -35,7 +34,7 @@ if TYPE_CHECKING:
 
 SMALLEST_SIZE = (4.5, 2.5)  # inches
 LABEL_ROOM = 0.3  # inches
-ARROW = 3.5  # radii: length of the longest arrow
+ARROW, SMALLEST_ARROW = 3.5, 18.0  # radii and at least points: length of the longest arrow
 COLLAR_REACH = 0.9  # of the smaller radius
 RING_RADIUS = 0.55  # of the smaller radius
 
@@ -69,7 +68,7 @@ def draw(
         dimensionless values.
     forces
         (N, 3) forces of the fluid on the spheres, such as `SphereLoads.force`, shown as arrows from the centres, in N
-        or, if `unit` is None, without a unit. Of more than 300 the largest are shown.
+        or, if `unit` is None, without a unit. Of more than 300 the largest of each place are shown.
     flow
         Linear flow whose principal strain rates are shown as arrows, seen from the same side as the aggregate.
     critical
@@ -77,7 +76,7 @@ def draw(
     view_direction
         (3,) from the aggregate to the viewer. By default the aggregate is seen from where it is broadest.
     size
-        Largest width and height of the figure in inches; the height shrinks to fit a flat aggregate.
+        Largest width and height of the figure in inches; the height shrinks to fit what is drawn.
     length_unit
         Unit of the coordinates for the scale bar, which shows a decimal prefix; None when they are dimensionless.
     title
@@ -96,8 +95,6 @@ def draw(
         If the number of values is not that of the contacts, a value is not finite, the index is out of range, the
         view direction is zero or the size too small.
     """
-    from matplotlib.figure import Figure
-
     values = None if contact_values is None else _values(contact_values, len(aggregate.pairs))
     pushes = None if forces is None else _checks.real_array("forces", forces, (len(aggregate), 3))
     if critical is not None:
@@ -112,12 +109,10 @@ def draw(
     points = pixels(aggregate.contact_points)
     rendering = _rendered(aggregate, layout, pixels(aggregate.spheres.centers), points, scale(shown))
 
-    figure = Figure(figsize=(layout.width, layout.height), dpi=layout.dots_per_inch, facecolor="white")
+    figure = labels.titled_figure(layout, title)
     picture = image_axes(figure, layout.picture_box, rendering.image)
-    if title is not None:
-        draw_title(figure, layout, title, labels.INK)
     if pushes is not None:
-        reach = ARROW * layout.scale * float(aggregate.spheres.radii.mean())
+        reach = max(ARROW * layout.scale * aggregate.spheres.mean_radius, SMALLEST_ARROW * dots_per_inch / 72)
         named = None if unit is None else "N"
         labels.draw_forces(picture, pixels(aggregate.spheres.centers), pushes @ axes.T, reach, named)
     labels.draw_scale_bar(figure, layout.scale_bar_box, layout.scale, length_unit)
@@ -184,5 +179,5 @@ def _rendered(
 ) -> Rendering:
     """The image, from centres (N, 3) and contact points (C, 3) in its pixels."""
     radii = aggregate.spheres.radii * layout.scale
-    reaches = COLLAR_REACH * radii[aggregate.pairs].min(axis=1)
-    return render(centers, radii, Collars(aggregate.pairs, points, reaches, colours), *layout.pixels)
+    collars = Collars.around(aggregate.pairs, points, radii[aggregate.pairs].min(axis=1), COLLAR_REACH, colours)
+    return render(centers, radii, collars, *layout.pixels)

@@ -6,7 +6,7 @@ image, z towards the viewer. Row 0 of every image is its bottom row.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,10 +23,13 @@ PAINT_GLOW = 0.8  # share of the shadow that vivid paint is spared, so that it c
 FADE = 0.4  # share of a collar's reach over which its paint fades
 OCCLUSION = 0.7  # share of the light from the hidden sky that is lost
 OCCLUDERS = 24  # neighbours that may shade a sphere
+SMALLEST_COLLAR = 4.0  # pixels, or all of a smaller sphere, so that its paint can be seen
+FULL_RIM, FAINTEST_RIM = 6.0, 0.3  # radius in pixels from which on a limb is fully dark, and share of that in dots
 BAND = 64  # rows shaded at a time, which bounds the memory
 NOTHING = -1
 
 Image = NDArray[np.float32]
+Window = tuple[tuple[slice, slice], Image, Image]
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +73,13 @@ class Collars:
     colours: FloatArray
 
     @classmethod
+    def around(
+        cls, pairs: IntArray, points: FloatArray, radii: FloatArray, share: float, colours: FloatArray
+    ) -> Collars:
+        """Patches that reach over a share of the smaller radius (C,) of each contact."""
+        return cls(pairs, points, np.maximum(share * radii, np.minimum(2 * radii, SMALLEST_COLLAR)), colours)
+
+    @classmethod
     def none(cls) -> Collars:
         """No patches."""
         return cls(np.empty((0, 2), dtype=np.intp), np.empty((0, 3)), np.empty(0), np.empty((0, 3)))
@@ -105,23 +115,26 @@ def visible_surface(centers: FloatArray, radii: FloatArray, height: int, width: 
     """Height z of the nearest surface (−∞ where none) and the sphere it belongs to (−1 where none), both (H, W)."""
     depth = np.full((height, width), -np.inf, dtype=np.float32)
     owner = np.full((height, width), NOTHING, dtype=np.int32)
-    for i, (center, radius) in enumerate(zip(centers, radii, strict=True)):
-        window, across, along = _window(center, radius, depth.shape)
-        above = np.float32(radius**2) - across**2 - along**2
-        surface = np.float32(center[2]) + np.sqrt(np.maximum(above, 0))
+    heights, squares = centers[:, 2].astype(np.float32), (radii**2).astype(np.float32)
+    for i, (window, across, along) in enumerate(_windows(centers, radii, depth.shape)):
+        above = squares[i] - across**2 - along**2
+        surface = heights[i] + np.sqrt(np.maximum(above, 0))
         nearer = (above > 0) & (surface > depth[window])
         depth[window][nearer] = surface[nearer]
         owner[window][nearer] = i
     return depth, owner
 
 
-def _window(center: FloatArray, reach: float, shape: Sequence[int]) -> tuple[tuple[slice, slice], Image, Image]:
-    """Part of the image within `reach` of a point, and the offsets x (1, w) and y (h, 1) of its pixel middles."""
-    low = np.clip(np.floor(center[:2] - reach), 0, shape[::-1]).astype(int)
-    high = np.clip(np.ceil(center[:2] + reach), low, shape[::-1]).astype(int)
-    across = (np.arange(low[0], high[0]) + 0.5 - center[0]).astype(np.float32)
-    along = (np.arange(low[1], high[1]) + 0.5 - center[1]).astype(np.float32)
-    return (slice(low[1], high[1]), slice(low[0], high[0])), across[None, :], along[:, None]
+def _windows(points: FloatArray, reaches: FloatArray, shape: Sequence[int]) -> Iterator[Window]:
+    """Part of the image within reach of each point, and the offsets x (1, w) and y (h, 1) of its pixel middles."""
+    limits = np.array(shape[::-1])
+    low = np.clip(np.floor(points[:, :2] - reaches[:, None]), 0, limits).astype(int)
+    high = np.clip(np.ceil(points[:, :2] + reaches[:, None]), low, limits).astype(int)
+    columns, rows = (np.arange(length) + 0.5 for length in limits)
+    for (x, y, _), (left, bottom), (right, top) in zip(points.tolist(), low.tolist(), high.tolist(), strict=True):
+        across = (columns[left:right] - x).astype(np.float32)
+        along = (rows[bottom:top] - y).astype(np.float32)
+        yield np.s_[bottom:top, left:right], across[None, :], along[:, None]
 
 
 def _painted(
@@ -135,10 +148,12 @@ def _painted(
     colour[owner != NOTHING] = sphere_colours[owner[owner != NOTHING]]
     contact = np.full(depth.shape, NOTHING, dtype=np.int32)
     nearest = np.full(depth.shape, np.inf, dtype=np.float32)
-    reaches, paint = samples * collars.reaches, collars.colours.astype(np.float32)
-    for c, (point, reach) in enumerate(zip(samples * collars.points, reaches, strict=True)):
-        window, across, along = _window(point, reach, depth.shape)
-        distance2 = across**2 + along**2 + (depth[window] - np.float32(point[2])) ** 2
+    paint = collars.colours.astype(np.float32)
+    seen = np.flatnonzero(_visible(owner, len(sphere_colours))[collars.pairs].any(axis=1))
+    points, reaches = samples * collars.points[seen], samples * collars.reaches[seen]
+    for k, (window, across, along) in enumerate(_windows(points, reaches, depth.shape)):
+        c, reach = seen[k], reaches[k]
+        distance2 = across**2 + along**2 + (depth[window] - np.float32(points[k, 2])) ** 2
         ours = (owner[window] == collars.pairs[c, 0]) | (owner[window] == collars.pairs[c, 1])
         ours &= distance2 < np.float32(reach**2)
         distance = np.sqrt(distance2[ours])
@@ -189,14 +204,15 @@ def _openness(centers: FloatArray, radii: FloatArray, depth: Image, owner: NDArr
     openness = np.ones(coarse_owner.shape, dtype=np.float32)
     count = min(OCCLUDERS, len(radii) - 1)
     if count:
-        neighbours = np.asarray(cKDTree(centers).query(centers, k=[*range(2, count + 2)])[1])
-        for i, (center, radius) in enumerate(zip(centers, radii, strict=True)):
-            window, across, along = _window(center / samples, radius / samples, openness.shape)
+        seen = np.flatnonzero(_visible(coarse_owner, len(radii)))
+        neighbours = np.asarray(cKDTree(centers).query(centers[seen], k=[*range(2, count + 2)])[1])
+        windows = _windows(centers[seen] / samples, radii[seen] / samples, openness.shape)
+        for i, others, (window, across, along) in zip(seen, neighbours, windows, strict=True):
             mine = coarse_owner[window] == i
-            offset = np.stack(np.broadcast_arrays(across * samples, along * samples, 0 * across), axis=-1)[mine]
-            offset[:, 2] = coarse_depth[window][mine] - center[2]
-            others = neighbours[i]
-            openness[window][mine] = _open_sky(offset, radius, centers[others] - center, radii[others])
+            row, column = np.nonzero(mine)
+            height = coarse_depth[window][mine] - np.float32(centers[i, 2])
+            offset = np.stack([samples * across[0, column], samples * along[row, 0], height], axis=1)
+            openness[window][mine] = _open_sky(offset, radii[i], centers[others] - centers[i], radii[others])
     return openness.repeat(samples, axis=0).repeat(samples, axis=1)
 
 
@@ -209,12 +225,19 @@ def _open_sky(offset: Image, radius: float, others: FloatArray, other_radii: Flo
     return np.asarray(np.prod(1 - OCCLUSION * np.minimum(hidden, 1), axis=1), dtype=np.float32)
 
 
+def _visible(owner: NDArray[np.int32], count: int) -> NDArray[np.bool_]:
+    """Which of the spheres (count,) are seen anywhere."""
+    seen = np.zeros(count + 1, dtype=np.bool_)  # the last for `NOTHING`
+    seen[owner] = True
+    return seen[:count]
+
+
 def _draw_rims(colour: Image, normal: Image, radius: Image, samples: int) -> None:
-    """Darken the limb of every sphere, a line about one pixel wide."""
+    """Darken the limb of every sphere, a line about one pixel wide, less where the whole sphere is hardly more."""
     inside = radius * (1 - np.hypot(normal[:, 0], normal[:, 1]))
     width = np.minimum(1.1 * samples, 0.14 * radius)
-    strength = 0.85 * np.clip(1.5 - inside / width, 0, 1)[:, None]
-    colour += strength * (np.asarray(RIM_COLOUR, dtype=np.float32) - colour)
+    strength = 0.85 * np.clip(1.5 - inside / width, 0, 1) * np.clip(radius / samples / FULL_RIM, FAINTEST_RIM, 1)
+    colour += strength[:, None] * (np.asarray(RIM_COLOUR, dtype=np.float32) - colour)
 
 
 def _fade_with_distance(colour: Image, depth: Image, heights: FloatArray, radii: FloatArray) -> None:

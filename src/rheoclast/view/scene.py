@@ -87,7 +87,7 @@ def crack_axes(breakup: Breakup) -> FloatArray:
         return broadest
     line = breakup.fragments[1].spheres.center_of_mass - breakup.fragments[0].spheres.center_of_mass
     length = float(np.linalg.norm(line))
-    if length < ROUNDING * float(spheres.radii.mean()):
+    if length < ROUNDING * spheres.mean_radius:
         return broadest
     right = line / length
     offset = spheres.centers - spheres.center_of_mass

@@ -43,7 +43,7 @@ def test_genealogy(aggregate, orientation):
     """Parents come before their children, which share their spheres; what holds is all spheres once."""
     whole = setting(aggregate)
     splits = rc.break_up(*whole, rc.simple_shear(1.0)).breakup_rate
-    result = rc.cascade(*whole, rc.simple_shear(3 * splits), orientation)
+    result = rc.cascade(*whole, rc.simple_shear(3 * splits), orientation=orientation)
     assert result.pieces[0].parent is None
     for position, piece in enumerate(result.pieces):
         children = [result.pieces[k] for k in result.children(position)]
@@ -74,7 +74,7 @@ def test_worst_orientation_leaves_nothing_that_any_orientation_breaks():
     whole = setting(cluster_cluster(40, seed=5), 30.0, rc.StokesianDynamics())
     table = rc.contact_response(whole[0], whole[1])
     flow = rc.simple_shear(2 * rc.worst_initiation(table, whole[2], rc.simple_shear(1.0)).rate)
-    remaining = rc.cascade(*whole, flow, "worst").remaining
+    remaining = rc.cascade(*whole, flow, orientation="worst").remaining
     assert len(remaining) > 1
     for fragment in remaining:
         if len(fragment) > 1:
@@ -128,5 +128,23 @@ def test_progress_ends_at_one():
 
 
 def test_unknown_orientation():
-    with pytest.raises(ValueError, match="orientation: expected one of 'given', 'worst', 'orbit', got 'any'"):
-        rc.cascade(*setting(straight_chain(3)), ALONG_X, "any")
+    with pytest.raises(
+        ValueError, match="orientation: expected one of 'given', 'worst', 'orbit' or a rotation, got 'any'"
+    ):
+        rc.cascade(*setting(straight_chain(3)), ALONG_X, orientation="any")
+
+
+def test_by_a_rotation_as_if_the_flow_were_turned():
+    turn = rc.random_orientations(1, seed=2)[0]
+    whole, flow = setting(cluster_cluster(20, seed=1)), rc.simple_shear(0.2)
+    turned = rc.cascade(*whole, flow, orientation=turn)
+    given = rc.cascade(*whole, flow.rotated(turn))
+    assert len(turned.pieces) > 3
+    assert [piece.spheres.tolist() for piece in turned.pieces] == [piece.spheres.tolist() for piece in given.pieces]
+    assert turned.flow is flow
+
+
+@pytest.mark.parametrize("gradient", [np.zeros((3, 3)), [[0, -1.0, 0], [1, 0, 0], [0, 0, 0]]])
+def test_flow_without_strain(gradient):
+    with pytest.raises(ValueError, match="flow: expected a strain rate that is not zero, got none; a rotation loads"):
+        rc.cascade(*setting(straight_chain(3)), rc.LinearFlow(gradient))

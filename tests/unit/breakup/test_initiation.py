@@ -1,38 +1,15 @@
-"""Strengths, laws other than JKR, and the first failure."""
+"""The first failure."""
 
-import inspect
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import rheoclast as rc
-from rheoclast.mechanics.laws.law import ContactLaw
 
 SPHERES = rc.Spheres([[0, 0, 0], [3, 0, 0], [3, 6, 0]], [1.0, 2.0, 4.0])
 TRIMER = rc.Aggregate.touching(SPHERES)
-JKR = rc.JKR(rc.MATERIALS["polystyrene"])
-EXPLICIT = rc.Uniform(normal=1.0, tangential=2.0, bending=3.0, twisting=4.0, tensile_strength=5.0)
-TESTED = {rc.JKR, rc.MeasuredPullOff, rc.Uniform}
-
-
-def test_every_contact_law_is_tested():
-    laws = {value for _, value in inspect.getmembers(rc, inspect.isclass) if issubclass(value, ContactLaw)}
-    assert laws - {ContactLaw} == TESTED
-
-
-def test_uniform_law_gives_what_it_was_given():
-    bonds = EXPLICIT.bonds(TRIMER)
-    np.testing.assert_array_equal(bonds.stiffness(2), [[1, 2, 3, 4]] * 2)
-    np.testing.assert_array_equal(bonds.strength(2), [[5, np.inf, np.inf, np.inf]] * 2)
-
-
-def test_measured_pull_off_is_that_of_the_measured_spheres_and_scales_with_the_reduced_radius():
-    law = rc.MeasuredPullOff(6e-9, EXPLICIT, radius=2.0)  # reduced radius 1
-    strength = law.bonds(TRIMER).strength(2)[:, 0]
-    np.testing.assert_allclose(strength, [6e-9 * 2 / 3, 6e-9 * 4 / 3])
-    np.testing.assert_array_equal(rc.MeasuredPullOff(6e-9, JKR).bonds(TRIMER).strength(2)[:, 0], [6e-9, 6e-9])
-    np.testing.assert_array_equal(law.bonds(TRIMER).stiffness(2), EXPLICIT.bonds(TRIMER).stiffness(2))
 
 
 @pytest.fixture(scope="module")
@@ -64,8 +41,8 @@ def test_first_failure_by_each_limit(table, criterion, load):
 def test_load_ratio_is_one_at_the_first_failure(table, criterion):
     """Largest of all contacts; and the criterion that is told is the one that is met."""
     bonds = rc.Bonds(1, 1, 1, 1, [7.0, 9.0], [5.0, 3.0], [4.0, 8.0], [2.0, 1.0])
-    first = rc.initiation(table, bonds, rc.planar_extension(3.0).rotated(rc_rotation()), criterion)
-    ratios = rc.load_ratios(table.loads(first.flow), bonds, criterion)
+    first = rc.initiation(table, bonds, rc.planar_extension(3.0).rotated(rc_rotation()), criterion=criterion)
+    ratios = rc.load_ratios(table.loads(first.flow), bonds, criterion=criterion)
     assert ratios.max() == pytest.approx(1, rel=1e-12)
     contact, part = np.unravel_index(ratios.argmax(), ratios.shape)
     assert (first.contact, first.criterion) == (contact, criterion.parts[part].name)
@@ -108,7 +85,7 @@ def test_a_turned_rotation_breaks_nothing():
     table = rc.contact_response(TRIMER, rc.rigid_response(SPHERES, rc.FreeDraining(), 1.0))
     flow = rc.LinearFlow([[0, 1, 0], [-1, 0, 0], [0, 0, 0]]).rotated(np.array([[2, -1, 2], [2, 2, -1], [-1, 2, 2]]) / 3)
     assert flow.rate == 0
-    bonds = EXPLICIT.bonds(TRIMER)
+    bonds = rc.Bonds(1.0, 2.0, 3.0, 4.0, tensile_strength=5.0)
     for first in (rc.initiation(table, bonds, flow), rc.worst_initiation(table, bonds, flow)):
         assert first.contact is None
         assert first.rate == np.inf
@@ -118,3 +95,78 @@ def test_a_turned_rotation_breaks_nothing():
 def test_a_rate_of_zero_is_refused_for_a_strain():
     with pytest.raises(ValueError, match=r"^rate: expected a positive number for a flow of magnitude 1, got 0$"):
         rc.LinearFlow([[0, 1, 0], [0, 0, 0], [0, 0, 0]], rate=0)
+
+
+class TestManyOrientations:
+    FLOC = rc.generation.thinned_fcc_ball(30, 4, seed=3)
+    RESPONSE = rc.rigid_response(FLOC.spheres, rc.FreeDraining(), 1.0)
+    BONDS = rc.Bonds(1.0, 0.8, 0.3, 0.2, tensile_strength=2.0, shear_strength=1.5, bending_strength=1.1)
+    TABLE = rc.contact_response(FLOC, RESPONSE, BONDS)
+    FLOWS = (rc.simple_shear(3.0), rc.uniaxial_extension(1.0))
+    ROTATIONS = rc.random_orientations(40, seed=2)
+    CRITERION = rc.Tension() | rc.Sliding(0.1) | rc.Twisting() | rc.Rolling() | rc.Sliding(0.6)
+
+    @pytest.mark.parametrize("criterion", [CRITERION, rc.Tension(), rc.Combined(), rc.EVERY_LIMIT])
+    @pytest.mark.parametrize("flow", FLOWS)
+    def test_rate_and_contact_are_by_definition(self, flow, criterion):
+        """At the rate told the largest load ratio is one, in the contact and by the criterion told."""
+        found = rc.initiations(self.TABLE, self.BONDS, flow, self.ROTATIONS, criterion=criterion)
+        assert found.criteria == criterion.part_names
+        for k, rotation in enumerate(self.ROTATIONS):
+            loads = self.TABLE.loads(flow.rotated(rotation).scaled(found.rate[k] / flow.rate))
+            ratios = rc.load_ratios(loads, self.BONDS, criterion=criterion)
+            assert ratios.max() == pytest.approx(1, rel=1e-12)
+            assert (found.contact[k], found.criterion[k]) == np.unravel_index(ratios.argmax(), ratios.shape)
+
+    def test_one_orientation_is_an_initiation(self):
+        found = rc.initiations(self.TABLE, self.BONDS, self.FLOWS[0], self.ROTATIONS, criterion=self.CRITERION)
+        for k, rotation in enumerate(self.ROTATIONS):
+            flow = self.FLOWS[0].rotated(rotation)
+            single = rc.initiation(self.TABLE, self.BONDS, flow, criterion=self.CRITERION)
+            assert (single.contact, single.criterion) == (found.contact[k], found.criteria[found.criterion[k]])
+            assert single.rate == pytest.approx(found.rate[k], rel=1e-12)
+        assert {"sliding 2", "rolling"} <= {found.criteria[part] for part in found.criterion}
+
+    def test_margin_is_that_of_the_first_failure_of_a_breakup(self):
+        found = rc.initiations(self.TABLE, self.BONDS, self.FLOWS[0], self.ROTATIONS, criterion=self.CRITERION)
+        turned = [self.FLOWS[0].rotated(each) for each in self.ROTATIONS]
+        broken = rc.break_up_each(self.FLOC, self.RESPONSE, self.BONDS, turned, criterion=self.CRITERION)
+        np.testing.assert_allclose(found.margin, [each.failures[0].margin for each in broken], atol=1e-9)
+
+    def test_nothing_fails_where_all_is_compressed(self):
+        """Two spheres along the axis of extension, and along two of compression."""
+        pair = rc.generation.straight_chain(2)
+        response = rc.rigid_response(pair.spheres, rc.FreeDraining(), 1.0)
+        axis = (pair.spheres.centers[1] - pair.spheres.centers[0]) / 2
+        turn = np.array([np.roll(np.eye(3), k, axis=0) for k in range(3)])
+        flow = rc.uniaxial_extension(2.0)
+        pulled = np.array([axis @ each @ flow.strain_rate @ each.T @ axis for each in turn]) > 0
+        assert sorted(pulled) == [False, False, True]
+        table = rc.contact_response(pair, response)
+        found = rc.initiations(table, self.BONDS, flow, turn, criterion=rc.Tension())
+        np.testing.assert_array_equal(found.contact, np.where(pulled, 0, -1))
+        np.testing.assert_array_equal(found.criterion, np.where(pulled, 0, -1))
+        np.testing.assert_array_equal(np.isfinite(found.rate), pulled)
+        np.testing.assert_array_equal(found.margin, np.where(pulled, 1, 0))
+
+    def test_rotations_of_scipy(self):
+        found, again = (
+            rc.initiations(self.TABLE, self.BONDS, self.FLOWS[1], each)
+            for each in (self.ROTATIONS, Rotation.from_matrix(self.ROTATIONS.copy()))
+        )
+        np.testing.assert_allclose(found.rate, again.rate, rtol=1e-12)
+        with pytest.raises(ValueError, match="read-only"):
+            found.rate[0] = 1
+
+    def test_refused(self):
+        with pytest.raises(ValueError, match="bonds: expected a strength"):
+            rc.initiations(self.TABLE, rc.Bonds(1, 1, 1, 1), self.FLOWS[0], self.ROTATIONS)
+        with pytest.raises(ValueError, match=r"rotations: expected shape \(n, 3, 3\), got \(3, 3\)"):
+            rc.initiations(self.TABLE, self.BONDS, self.FLOWS[0], np.eye(3))
+        wrong = np.stack([np.eye(3), -np.eye(3)])
+        with pytest.raises(ValueError, match=r"rotations\[1\]: expected a rotation matrix, .* determinant -1$"):
+            rc.initiations(self.TABLE, self.BONDS, self.FLOWS[0], wrong)
+        with pytest.raises(TypeError, match=r"^table: expected ContactResponse, got RigidResponse; make one with con"):
+            rc.initiation(self.RESPONSE, self.BONDS, self.FLOWS[0])
+        with pytest.raises(TypeError, match=r"^flow: expected LinearFlow, got ndarray; for instance simple_shear"):
+            rc.worst_initiation(self.TABLE, self.BONDS, np.eye(3))

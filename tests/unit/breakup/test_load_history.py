@@ -9,8 +9,8 @@ import pytest
 
 import rheoclast as rc
 from rheoclast.breakup import load_history as module
-from rheoclast.breakup import trajectory_loads
-from rheoclast.breakup.load_history import Exceedances, LoadHistory, load_history
+from rheoclast.breakup import ratio_response, trajectory_loads
+from rheoclast.breakup.load_history import Exceedances, LargestLoad, LoadHistory, load_history
 from rheoclast.generation import cluster_cluster, straight_chain
 
 REFERENCE = json.loads((Path(__file__).parents[2] / "published" / "reference" / "doublet.json").read_text())
@@ -65,21 +65,21 @@ class TestDoublet:
 
     @pytest.mark.parametrize("share", [0.05, 0.5, 0.9, 0.999])
     def test_first_failure(self, orbit, history, share):
-        failure = history.first_failure(1 / (share * orbit.amplitude))
+        failure = history.first_failure(share * orbit.amplitude)
         assert failure.time == pytest.approx(orbit.time(share), abs=3e-7 * orbit.HALF_TURN / np.sqrt(1 - share**2))
         assert (failure.contact, failure.criterion) == (0, "tension")
         at_failure = rc.load_ratios(orbit.table.loads(orbit.trajectory.flow(failure.time)), orbit.bonds)
         assert at_failure.max() == pytest.approx(share * orbit.amplitude, rel=1e-10)
 
     def test_does_not_fail_below_its_largest_load(self, orbit, history):
-        assert history.first_failure(1 / (1.0001 * orbit.amplitude)) is None
-        assert history.first_failure(1 / (0.9999 * history.maximum.ratio)) is not None
+        assert history.first_failure(1.0001 * orbit.amplitude) is None
+        assert history.first_failure(0.9999 * history.maximum.ratio) is not None
 
     def test_maximum(self, orbit, history):
         assert history.maximum.ratio == pytest.approx(orbit.amplitude, rel=1e-9)
         since = (history.maximum.time - orbit.time(1.0)) / orbit.HALF_TURN
         assert since == pytest.approx(round(since), abs=1e-5)
-        assert history.maximum.ratio >= history.largest.max()
+        assert history.maximum.ratio == history.largest.max()
 
     @pytest.mark.parametrize("share", [0.1, 0.7])
     def test_exceedances(self, orbit, history, share):
@@ -130,7 +130,7 @@ class TestSamples:
 
     def test_touching_counts_as_reaching(self):
         assert self.HISTORY.exceedances(6.0) == Exceedances(1, 0.0)
-        assert self.HISTORY.first_failure(1 / 6).time == 4.0
+        assert self.HISTORY.first_failure(6.0).time == 4.0
 
     def test_peaks_by_hand(self):
         assert self.HISTORY.peaks(1.0).tolist() == [0, 3, 6]
@@ -139,21 +139,43 @@ class TestSamples:
 
     def test_first_failure_by_hand(self):
         assert self.HISTORY.first_failure().time == 0.0
-        assert self.HISTORY.first_failure(1 / 3).time == pytest.approx(2.5, rel=1e-11)
-        assert self.HISTORY.first_failure(0.1) is None
+        assert self.HISTORY.first_failure(3.0).time == pytest.approx(2.5, rel=1e-11)
+        assert self.HISTORY.first_failure(10.0) is None
+
+    def test_maximum_is_that_of_the_samples(self):
+        assert self.HISTORY.maximum == LargestLoad(4.0, 6.0, 0, "tension")
 
     def test_maximum_at_an_end(self):
         assert sampled([1, 2, 4], [1, 2, 5]).maximum.time == 4.0
         assert sampled([1, 2, 4], [5, 2, 1]).maximum.time == 1.0
 
 
+STRENGTHS = {"tensile_strength": np.linspace(1, 2, 29), "shear_strength": 1.5, "twisting_strength": 0.8}
+
+
 @pytest.fixture(scope="module")
 def case():
-    aggregate = cluster_cluster(30, seed=4)
-    strengths = {"tensile_strength": np.linspace(1, 2, 29), "shear_strength": 1.5, "twisting_strength": 0.8}
-    response, table, bonds = setting(aggregate, **strengths)
+    """In turbulence, where the load bends at every sample of the gradient."""
+    response, table, bonds = setting(cluster_cluster(30, seed=4), **STRENGTHS)
     flow = rc.recent_deformation_histories(1, 8.0, 1.0, 1.0, seed=3)[0]
     return rc.trajectory(response, flow), table, bonds
+
+
+@pytest.fixture(scope="module")
+def smooth():
+    """In shear, where its peaks lie between the samples."""
+    response, table, bonds = setting(cluster_cluster(30, seed=4), **STRENGTHS)
+    return rc.trajectory(response, rc.simple_shear(2.0), duration=25.0), table, bonds
+
+
+@pytest.fixture(scope="module")
+def growing():
+    """A doublet in a shear that grows so little that of two peaks the higher one may have the lower samples."""
+    response, table, bonds = setting(straight_chain(2))
+    shear = rc.simple_shear(SHEAR_RATE).gradient
+    duration = 20 * Orbit.HALF_TURN
+    flow = rc.GradientHistory([0.0, duration], [shear, (1 + 3e-4) * shear])
+    return rc.trajectory(response, flow, start=ALONG_GRADIENT), table, bonds
 
 
 class TestRoutes:
@@ -175,7 +197,7 @@ class TestRoutes:
             whole = load_history(trajectory, table, bonds, criterion=criterion)
             with monkeypatch.context() as patch:
                 patch.setattr(trajectory_loads, "INSTANTS_AT_ONCE", 17)
-                patch.setattr(trajectory_loads, "RATIOS_AT_ONCE", 5 * 29 + 3)
+                patch.setattr(ratio_response, "RATIOS_AT_ONCE", 5 * 29 + 3)
                 patch.setattr(module, "INSTANTS_AT_ONCE", 17)
                 pieces = load_history(trajectory, table, bonds, criterion=criterion)
             np.testing.assert_array_equal(whole.times, pieces.times)
@@ -197,16 +219,30 @@ class TestRoutes:
         np.testing.assert_allclose(history.largest, every.max(axis=0), rtol=1e-12)
         assert [history.criteria[k] for k in history.criterion] == [list(single)[k] for k in every.argmax(axis=0)]
 
-    def test_default_times_resolve_the_flow(self, case):
-        trajectory, table, bonds = case
-        times = load_history(trajectory, table, bonds).times
-        assert np.isin(trajectory.times, times).all()
-        middle = 0.5 * (times[1:] + times[:-1])
-        turning = np.linalg.norm(trajectory.gradient(middle), axis=(1, 2)) * np.diff(times)
-        assert turning.max() <= 1 / 40 * (1 + 1e-9)
-        for start, end in pairwise(trajectory.times):
-            inside = times[(times >= start) & (times <= end)]
-            np.testing.assert_allclose(np.diff(inside), (end - start) / (len(inside) - 1), rtol=1e-9)
+    @pytest.mark.parametrize(("path", "fewest"), [("case", 0), ("smooth", 3)])
+    def test_default_times_resolve_the_flow(self, path, fewest, request):
+        """The steps of the trajectory, each divided evenly; and nothing but tops of peaks higher than all before."""
+        trajectory, table, bonds = request.getfixturevalue(path)
+        history = load_history(trajectory, table, bonds)
+        times, largest = history.times, history.largest
+        sizes = np.linalg.norm(trajectory.gradient(trajectory.times), axis=(1, 2))
+        evenly = [
+            np.linspace(start, end, max(1, int(np.ceil(40 * (end - start) * max(sizes[k : k + 2])))) + 1)
+            for k, (start, end) in enumerate(pairwise(trajectory.times))
+        ]
+        even = np.unique(np.round(np.concatenate(evenly), 12))
+        added = np.flatnonzero(~np.isin(np.round(times, 12), even))
+        assert len(times) == len(even) + len(added)
+        assert fewest <= len(added) < 20
+        for k in added:
+            assert largest[k] > largest[:k].max()
+            assert largest[k] > largest[k + 1]
+
+    def test_given_times_are_the_samples(self, case):
+        times = np.sort(np.random.default_rng(2).uniform(0, 8, 50))
+        history = load_history(*case, times=times)
+        np.testing.assert_array_equal(history.times, times)
+        assert history.maximum.ratio == history.largest.max()
 
     def test_arrays_are_read_only(self, case):
         history = load_history(*case, times=[0.0, 1.0])
@@ -215,15 +251,64 @@ class TestRoutes:
                 array[0] = 0
 
 
+def told(history, level):
+    """Whether the level is reached, as every method has it."""
+    starts_above = history.largest[0] >= level
+    above = history.exceedances(level)
+    return [
+        history.first_failure(level) is not None,
+        history.maximum.ratio >= level,
+        len(history.peaks(level)) > 0,
+        bool(starts_above or above.count > 0),
+    ]
+
+
+class TestOneStory:
+    @pytest.mark.parametrize("times", [None, np.linspace(0, 8, 30)], ids=["default", "given"])
+    def test_all_methods_agree_whether_a_level_is_reached(self, case, times):
+        history = load_history(*case, times=times)
+        second, first = np.sort(history.largest)[-2:]
+        levels = [0.5 * first, 0.5 * (second + first), first, np.nextafter(first, 2 * first), 1.1 * first]
+        assert [told(history, level) for level in levels] == [[True] * 4] * 3 + [[False] * 4] * 2
+
+    @pytest.mark.parametrize("path", ["case", "smooth", "growing"])
+    def test_no_instant_between_the_samples_reaches_a_level_before_the_first_failure(self, path, request):
+        """Against 200 000 instants: the levels are their own records, so that none may be missed between samples."""
+        trajectory, table, bonds = request.getfixturevalue(path)
+        history = load_history(trajectory, table, bonds)
+        dense = load_history(trajectory, table, bonds, times=np.linspace(0, trajectory.duration, 200_001))
+        tops = np.flatnonzero(
+            (np.diff(dense.largest) <= 0) & (dense.largest[:-1] == np.maximum.accumulate(dense.largest)[:-1])
+        )
+        assert len(tops) > 2
+        for top in tops:
+            level = dense.largest[top] * (1 - 1e-12)
+            assert history.first_failure(level).time <= dense.times[top] * (1 + 1e-9)
+        assert history.maximum.ratio >= dense.maximum.ratio * (1 - 1e-12)
+
+    @pytest.mark.parametrize("seed", range(3))
+    def test_fails_at_the_critical_rate_of_its_orbit(self, seed):
+        """In a flow that is faster than that by rounding, and not in one that is slower."""
+        aggregate = cluster_cluster(20, seed=seed)
+        response, table, bonds = setting(aggregate, tensile_strength=1.0, shear_strength=1.0)
+        first = rc.orbit_initiation(response, table, bonds, rc.simple_shear(1.0), duration=60.0)
+        flow = rc.simple_shear(first.rate)
+        history = load_history(rc.trajectory(response, flow, duration=60.0 / first.rate), table, bonds)
+        assert history.first_failure(1 + 1e-9) is None
+        failure = history.first_failure(1 - 1e-9)
+        assert (failure.contact, failure.criterion) == (first.contact, first.criterion)
+        assert failure.time == pytest.approx(first.time / first.rate, rel=1e-3)
+
+
 class TestRefusal:
     @pytest.mark.parametrize("times", [[0.0], [0.0, 1.0, 1.0], [1.0, 0.0]])
     def test_times(self, orbit, times):
         with pytest.raises(ValueError, match="times: expected two or more increasing times; sort them"):
-            load_history(orbit.trajectory, orbit.table, orbit.bonds, times)
+            load_history(orbit.trajectory, orbit.table, orbit.bonds, times=times)
 
     def test_times_outside(self, orbit):
         with pytest.raises(ValueError, match=r"times: expected 0 s to .* s, got 1000 s"):
-            load_history(orbit.trajectory, orbit.table, orbit.bonds, [0.0, 1000.0])
+            load_history(orbit.trajectory, orbit.table, orbit.bonds, times=[0.0, 1000.0])
 
     def test_no_strength(self, orbit):
         bonds = rc.Bonds(1.0, 0.8, 6e-3, 8e-3, shear_strength=1.0)
@@ -246,10 +331,10 @@ class TestRefusal:
         with pytest.raises(ValueError, match=r"times: expected at most 10 by default, got .*; pass fewer times"):
             load_history(orbit.trajectory, orbit.table, orbit.bonds)
 
-    def test_scale_and_levels(self, history):
-        with pytest.raises(ValueError, match="scale: expected a positive number, got 0"):
+    def test_levels(self, history):
+        with pytest.raises(ValueError, match="level: expected a positive number, got 0"):
             history.first_failure(0.0)
         with pytest.raises(ValueError, match="level: expected a finite number, got nan"):
             history.exceedances(np.nan)
-        with pytest.raises(ValueError, match="threshold: expected a finite number, got inf"):
+        with pytest.raises(ValueError, match="level: expected a finite number, got inf"):
             history.peaks(np.inf)

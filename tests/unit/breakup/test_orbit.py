@@ -60,7 +60,9 @@ def test_regular_cluster_turns_with_the_vorticity():
     """Half a turn of the strain axes takes π/G: a longer orbit tells nothing new."""
     response, table, bonds = setting(lattice_ball("sc", 7))
     flow, start = rc.simple_shear(1.0), rc.random_orientations(1, seed=2)[0]
-    short, long = (rc.orbit_initiation(response, table, bonds, flow, start, k * 2 * np.pi).rate for k in (1, 3))
+    short, long = (
+        rc.orbit_initiation(response, table, bonds, flow, start=start, duration=k * 2 * np.pi).rate for k in (1, 3)
+    )
     assert short == pytest.approx(long, rel=1e-7)
 
 

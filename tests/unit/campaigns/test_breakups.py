@@ -26,7 +26,7 @@ def test_rows_of_breakups(rule):
     assert [(row["flow"], row["orientation"]) for row in rows] == [(name, k) for name in FLOWS for k in range(4)]
     for row in rows:
         flow = FLOWS[row["flow"]].rotated(ROTATIONS[row["orientation"]])
-        broken = rc.break_up(FLOC, RESPONSE, BONDS, flow, rule, CRITERION)
+        broken = rc.break_up(FLOC, RESPONSE, BONDS, flow, rule=rule, criterion=CRITERION)
         assert row["outcome"] == broken.outcome
         assert row["fragments"] == [len(each) for each in broken.fragments]
         assert row["contacts"] == [each.contact for each in broken.failures]

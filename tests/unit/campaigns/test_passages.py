@@ -83,7 +83,7 @@ def test_rows_are_those_of_every_dissipation_by_itself(task):
     response = rc.rigid_response(aggregate.spheres, rc.FreeDraining(), VISCOSITY)
     starts = rc.random_orientations(6, seed=11)
     for material, events in zip((WEAK, STIFF), rows(task), strict=True):
-        bonds = material.law().bonds(aggregate)
+        bonds = material.contact_law().bonds(aggregate)
         assert [(row["history"], row["dissipation_m2_per_s3"]) for row in events] == [
             (number, each) for number in range(6) for each in DISSIPATIONS
         ]
@@ -113,7 +113,7 @@ def test_rows_of_files(tmp_path):
     drawn = list(task.conditions.histories.drawn(12))
     aggregate = task.grown()
     response = rc.rigid_response(aggregate.spheres, rc.FreeDraining(), VISCOSITY)
-    bonds = WEAK.law().bonds(aggregate)
+    bonds = WEAK.contact_law().bonds(aggregate)
     events = rows(task)[0]
     assert [row["history"] for row in events] == drawn
     mean = sum(path.dissipation(2e-6) * path.duration for path in paths) / sum(path.duration for path in paths)

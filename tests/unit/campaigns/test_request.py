@@ -149,7 +149,7 @@ def test_histories_and_flows_exclude_each_other(tmp_path, changed, message):
         ),
         (
             '{ model = "chaos", density = 1e3 }',
-            "histories: model: expected one of gaussian, recent-deformation, got 'chaos'",
+            "histories: model: expected one of gaussian, .*, got 'chaos'",
         ),
         ('{ model = "gaussian", density = 1e3 }', "histories: number: expected with a model of turbulence"),
         ('{ model = "gaussian", density = 1e3, number = 0 }', r"histories\.number: expected int >= 1"),
@@ -248,7 +248,7 @@ def test_a_bound_on_the_rate_needs_a_flow_that_is_raised(tmp_path, event):
         ({"event": '"lunch"'}, "event: expected one of first failure, breakup, history, got 'lunch'"),
         ({"rule": '"strongest"'}, "rule: expected one of weakest, overloaded, got 'strongest'"),
         ({"criterion": '"taste"'}, "criterion: expected one of every-limit, .*, got 'taste'"),
-        ({"criterion": '"sliding"'}, "criterion: 'sliding' never fails 'polystyrene': .*shear_strength"),
+        ({"criterion": '"sliding"'}, "criterion: 'sliding' never fails 'polystyrene', .*; add friction"),
         ({"orientations": '"best"'}, "orientations: expected 'worst' or { number = … }, got 'best'"),
         ({"orientations": "{ number = 0 }"}, "orientations.number: expected int >= 1"),
         ({"flows": "[]"}, "flows: expected list of length >= 1"),
@@ -257,11 +257,22 @@ def test_a_bound_on_the_rate_needs_a_flow_that_is_raised(tmp_path, event):
         ({"flows": '[{ name = "a" }]'}, r"flows\[0\]: missing key gradient"),
         ({"flows": '[{ name = "a", gradient = [[1, 0, 0], [0, 0, 0], [0, 0, 0]] }]'}, r"flows\[0\]: gradient: .*trace"),
         ({"flows": '[{ name = "a", gradient = [[0, 1, 0], [-1, 0, 0], [0, 0, 0]] }]'}, r"flows\[0\]: .* a rotation"),
-        ({"materials": '["cheese"]'}, "youngs_modulus: 'cheese' is none of the known materials"),
+        (
+            {"materials": '["cheese"]'},
+            "material: 'cheese' is none of the known ones .*; give its youngs_modulus, poisson_ratio, work_of_adhesion",
+        ),
+        (
+            {"materials": '[{ name = "cheese", youngs_modulus = 1e6, work_of_adhesion = 0.1 }]'},
+            r"materials\[0\]: material: 'cheese' is none of the known ones \(polystyrene\); give its poisson_ratio$",
+        ),
+        (
+            {"materials": '[{ name = "polystyrene", law = "oil" }]'},
+            r"materials\[0\]: law: expected one of jkr.*, got 'oil'",
+        ),
         ({"materials": '[{ name = "a", stiffness = [1, 1, 1, 1] }]'}, r"materials\[0\]: stiffness: .*add pull_off"),
         (
             {"materials": '[{ name = "a", stiffness = [1, 1, 1, 1], pull_off = 1, friction = 0.1 }]'},
-            r"materials\[0\]: friction, rolling_distance: explicit stiffness has no law",
+            r"materials\[0\]: friction: explicit stiffness does not take this; leave one of them out",
         ),
         ({"hydrodynamics": '{ model = "magic" }'}, "hydrodynamics: model: expected one of stokesian, .*, got 'magic'"),
         ({"hydrodynamics": "{ order = 0 }"}, "hydrodynamics: .*order"),

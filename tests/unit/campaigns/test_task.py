@@ -70,7 +70,7 @@ def test_events_are_those_of_the_aggregate_with_its_own_orientations_and_bonds()
         criterion = rc.Tension() | rc.Sliding(0.5 if row["material"] == "weak" else 0.0) | rc.Twisting()
         table = rc.contact_response(aggregate, response, bonds)
         expected = [
-            rc.initiation(table, bonds, rc.uniaxial_extension(1.0).rotated(rotation), criterion).rate
+            rc.initiation(table, bonds, rc.uniaxial_extension(1.0).rotated(rotation), criterion=criterion).rate
             for rotation in rc.random_orientations(5, seed=5)
         ]
         np.testing.assert_allclose([event["initiation_rate_per_s"] for event in row["events"]], expected, rtol=1e-12)
@@ -95,11 +95,21 @@ def test_contacts_that_cannot_be_solved_fail_alone(monkeypatch):
     assert (failed["spheres"], failed["events"]) == (20, [])
 
 
-def test_warnings_stay_in_the_task():
+def test_what_is_asked_for_is_warned_of_once_and_not_in_every_task():
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         perform(changed(parameters={"count": 20, "coordination": 4.0, "radius": 1.0}))
     assert not caught
+
+
+def test_warnings_of_what_goes_wrong_are_heard(monkeypatch):
+    def doubtful(*_, **__):
+        warnings.warn("a matrix is singular", RuntimeWarning, stacklevel=1)
+        return rc.generation.straight_chain(3, 1e-6)
+
+    monkeypatch.setattr("rheoclast.campaigns.task.FAMILIES", {TASK.family: doubtful})
+    with pytest.warns(RuntimeWarning, match="a matrix is singular"):
+        perform(TASK)
 
 
 def test_hash_knows_every_input():

@@ -178,11 +178,19 @@ def test_up_to(run, compact):
     [
         (["--cascade"], "--cascade: fragments break at the rate of the flow; give --rate or --gradient"),
         (["--gradient", "0 -1 0 1 0 0 0 0 0"], "flow: expected a strain rate that is not zero, got none"),
-        (["--criterion", "rolling"], "--criterion rolling: contacts need a limit; give --rolling-distance"),
-        (["--criterion", "twisting"], "--criterion twisting: contacts need a limit; give --friction"),
-        (["--stiffness", 1, 1, 1, 1, "--pull-off", 1, "--friction", 1], "explicit stiffness has no law for them"),
-        (["--up-to", "-1"], "up_to: expected a positive number, got -1"),
-        (["--friction", "-1"], "friction: expected a positive number, got -1"),
+        (
+            ["--criterion", "rolling"],
+            "--criterion: 'rolling' never fails 'polystyrene', whose contacts have no limit for it; "
+            "add --rolling-distance",
+        ),
+        (["--criterion", "twisting"], "whose contacts have no limit for it; add --friction"),
+        (
+            ["--stiffness", 1, 1, 1, 1, "--pull-off", 1, "--friction", 1],
+            "--friction: explicit stiffness does not take this; leave one of them out",
+        ),
+        (["--criterion", "taste"], "--criterion: expected one of every-limit, tension, "),
+        (["--up-to", "-1"], "--up-to: expected a positive number, got -1"),
+        (["--friction", "-1"], "--friction: expected a positive number, got -1"),
     ],
 )
 def test_refusals(run, compact, tmp_path, arguments, message):

@@ -129,6 +129,8 @@ class TestStress:
 
         assert critical("--pull-off", 1e-9)["pull_off_force"] == pytest.approx(1e-9)
         assert critical("--work-of-adhesion", 0.04)["critical_rate"] == pytest.approx(2 * critical()["critical_rate"])
+        properties = ["--youngs-modulus", 3.4e9, "--poisson-ratio", 0.33, "--work-of-adhesion", 0.02]
+        assert critical("--material", "mine", *properties) == critical("--material", "polystyrene")
         stiff = critical("--stiffness", 1, 1, 1e-13, 1e-13, "--pull-off", 1e-9)
         assert stiff["critical_rate"] == pytest.approx(critical("--pull-off", 1e-9)["critical_rate"])
 
@@ -177,7 +179,7 @@ class TestRefusals:
         ("content", "message"),
         [
             ("0 0 0 1\n1.5 0 0 1\n", r"spheres 0 and 1 overlap: distance 1.5e-06 < 2e-06 = sum of radii; shrink"),
-            ("0 0 0 1\n5 0 0 1\n", r"in 2 parts, expected one: sphere 0 .* gap of 3 mean radii; raise"),
+            ("0 0 0 1\n5 0 0 1\n", r"in 2 parts, expected one: sphere 0 .* gap of 3 mean radii; "),
             ("0 0 0 1\n", r"single sphere and has no contact; expected at least two"),
             ("0 0 0 1\nnan 0 0 1\n", r"line 2: expected a finite number, got 'nan'"),
             ("0 0 0 1\n2 0 0 0\n", r"line 2: .*positive.*0"),
@@ -199,16 +201,22 @@ class TestRefusals:
     @pytest.mark.parametrize(
         ("arguments", "message"),
         [
-            (["--gradient", "1 0 0 0 0 0 0 0 0"], "expected zero trace (an incompressible flow), got 1"),
+            (["--gradient", "1 0 0 0 0 0 0 0 0"], "--gradient: expected zero trace (an incompressible flow), got 1"),
             (["--gradient", "1 2 3"], "--gradient: expected nine numbers, got 3"),
             (["--gradient", "a"], "--gradient: expected nine numbers, got 'a'"),
-            (["--rate", "-1"], "rate: expected zero or a positive number, got -1"),
-            (["--viscosity", "0"], "viscosity: expected a positive number, got 0"),
-            (["--material", "gold"], "--material: expected one of polystyrene, got 'gold'"),
-            (["--order", "0"], "--order: expected an integer of at least 1, or auto, got '0'"),
+            (["--rate", "-1"], "--rate: expected zero or a positive number, got -1"),
+            (["--viscosity", "0"], "--viscosity: expected a positive number, got 0"),
+            (
+                ["--material", "gold"],
+                "--material: 'gold' is none of the known ones (polystyrene); give its --youngs-modulus,",
+            ),
+            (["--law", "oil"], "--law: expected one of jkr"),
+            (["--model", "magic"], "--model: expected one of stokesian, "),
+            (["--flow", "turbulent"], "--flow: expected one of shear, uniaxial, biaxial, planar, got 'turbulent'"),
+            (["--order", "0"], "--order: expected an integer of at least 1, got 0"),
             (["--order", "two"], "--order: expected an integer of at least 1, or auto, got 'two'"),
             (["--stiffness", "1", "1", "1", "1"], "add --pull-off"),
-            (["--pull-off", "-1"], "force: expected a positive number, got -1"),
+            (["--pull-off", "-1"], "--pull-off: expected a positive number, got -1"),
             (["--unit", "parsec"], "parsec"),
             (["--rate", "0", "--dimensionless"], "--dimensionless: expected a positive rate to scale with, got 0"),
         ],
@@ -238,7 +246,7 @@ class TestRefusals:
         assert status == 1
         assert "expected a folder, got a file" in err
 
-    @pytest.mark.parametrize("arguments", [["--order", "2", "--flow", "turbulent"], ["--rate", "fast"], ["--nonsense"]])
+    @pytest.mark.parametrize("arguments", [["--rate", "fast"], ["--nonsense"]])
     def test_wrong_option(self, run, small, arguments):
         status, out, err = run("stress", small, *arguments)
         assert (status, out) == (2, "")
@@ -355,11 +363,31 @@ class TestOtherCommands:
     def test_version(self, run):
         assert run("--version")[1].strip() == f"rheoclast {rc.__version__}"
 
-    @pytest.mark.parametrize("command", ["stress", "info", "break", "survey", "report", "demo"])
+    @pytest.mark.parametrize("command", ["stress", "info", "break", "survey", "report", "demo", "generate"])
     def test_help_has_an_example(self, run, command):
         status, out, _ = run(command, "--help")
         assert status == 0
         assert f"rheoclast {command}" in out.split("Example:")[1]
+
+    @pytest.mark.parametrize("command", [[], ["stress"], ["break"], ["generate", "lattice-block"]])
+    def test_help_fits_a_narrow_screen(self, run, command, monkeypatch):
+        """Nothing is cut off, and no kind of value is broken over two lines."""
+        monkeypatch.setenv("COLUMNS", "80")
+        lines = run(*command, "--help")[1].splitlines()
+        assert len(lines) > 10
+        assert all(len(line) <= 80 and "…" not in line for line in lines)
+        assert all(line.count("<") == line.count(">") for line in lines)
+
+    @pytest.mark.parametrize(
+        ("words", "completed"),
+        [("br", ["break"]), ("stress f.dat --flow u", ["uniaxial"]), ("break f.dat --rule w", ["weakest"])],
+    )
+    def test_shell_completes_commands_and_names(self, words, completed):
+        asked = f"rheoclast {words}"
+        asking = {"_RHEOCLAST_COMPLETE": "complete_bash", "COMP_WORDS": asked, "COMP_CWORD": str(len(words.split()))}
+        command = [Path(sys.executable).parent / "rheoclast"]
+        done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **asking}, check=True)
+        assert done.stdout.split() == completed
 
     def test_module_is_the_command(self, small):
         command = [sys.executable, "-m", "rheoclast", "stress", str(small), "--unit", "um", "--json"]

@@ -4,9 +4,11 @@ import json
 
 import numpy as np
 import pytest
+import typer
 
 import rheoclast as rc
 from rheoclast import generation
+from rheoclast.cli import generation as families_of_commands
 from rheoclast.cli import main
 
 ARGUMENTS = {
@@ -59,6 +61,33 @@ def test_options_are_those_of_the_function(run, tmp_path):
     assert run("generate", "cluster-cluster", "40", *options, "--output", "floc.csv")[0] == 0
     expected = generation.cluster_cluster(40, 1e-7, fractal_dimension=2.1, prefactor=1.2, spread=0.2, seed=5)
     np.testing.assert_allclose(rc.read(tmp_path / "floc.csv", unit="m").spheres.centers, expected.spheres.centers)
+
+
+def test_parameters_of_a_new_family_are_options_with_its_own_words(run, monkeypatch):
+    def knot(count: int, radius: float = 1.0, *, tightness: float = 2.0) -> rc.Aggregate:
+        """Knot of `count` spheres.
+
+        Parameters
+        ----------
+        tightness
+            How close its strands lie,
+            in `radii`.
+
+        Raises
+        ------
+        ValueError
+            Never.
+        """
+        assert tightness == 3
+        return generation.straight_chain(count, radius)
+
+    command = families_of_commands.command_of("knot", knot)
+    app = typer.Typer()
+    app.command()(command)
+    app(["5", "--tightness", "3"], standalone_mode=False)
+    assert len(rc.read("knot.dat")) == 5
+    assert families_of_commands.documented(knot, "tightness") == "How close its strands lie, in radii."
+    assert families_of_commands.documented(knot, "count") == ""
 
 
 class TestRefusals:

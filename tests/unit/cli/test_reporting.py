@@ -1,5 +1,7 @@
 """`rheoclast report` as a user meets it."""
 
+import sys
+
 import pytest
 import typer
 from typer.testing import CliRunner
@@ -42,4 +44,48 @@ def test_a_folder_without_results(report, tmp_path):
     problem = report(tmp_path).exception
     assert isinstance(problem, FileNotFoundError)
     assert str(problem).count("\n") == 0
-    assert "expected the results of stress or break, got a folder without summary.json" in str(problem)
+    assert "expected the results of stress, break or survey, got a folder without summary.json" in str(problem)
+
+
+CAMPAIGN = """
+event = "first failure"
+viscosity = 1e-3
+radius = 1e-6
+flows = ["shear"]
+orientations = { number = 5 }
+materials = ["polystyrene"]
+hydrodynamics = { model = "free-draining" }
+families = [{ name = "straight-chain", count = [4, 6] }]
+"""
+
+
+def in_turn(function, items, **_):
+    """Performed here and now."""
+    return ((item, function(item)) for item in items)
+
+
+@pytest.fixture
+def campaign(tmp_path, monkeypatch):
+    pytest.importorskip("msgspec")
+    pytest.importorskip("pyarrow")
+    monkeypatch.setattr("rheoclast.campaigns.local_pool.performed", in_turn)
+    (tmp_path / "chains.toml").write_text(CAMPAIGN)
+    with pytest.raises(SystemExit) as stop:
+        main(["survey", str(tmp_path / "chains.toml")])
+    assert not stop.value.code
+    return tmp_path / "chains"
+
+
+def test_a_campaign(report, campaign):
+    done = report(campaign)
+    assert done.exit_code == 0
+    assert f"written to {campaign / 'report.html'}" in done.stdout
+    assert "<h1>chains</h1>" in (campaign / "report.html").read_text(encoding="utf-8")
+
+
+def test_a_campaign_without_pyarrow(report, campaign, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    problem = report(campaign).exception
+    assert isinstance(problem, ImportError)
+    assert str(problem) == "a page on a campaign needs the package pyarrow: pip install 'rheoclast[parquet]'"
+    assert not (campaign / "report.html").exists()

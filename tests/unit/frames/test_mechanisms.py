@@ -5,9 +5,8 @@ import pytest
 from scipy.linalg import null_space
 
 from rheoclast.frames import mechanisms
-from rheoclast.frames.equilibrium import equilibrium_matrix
 from rheoclast.frames.mechanisms import moving_parts
-from rheoclast.frames.springs import joint_stiffness
+from rheoclast.frames.springs import spring_frame
 from rheoclast.graphs import connected_parts
 from rheoclast.vectors import cross_matrix
 
@@ -43,11 +42,9 @@ def ring(count):
 
 def parts(nodes, pairs, stiffness, removed=NONE):
     """`moving_parts` of nodes joined halfway."""
-    between = nodes[pairs[:, 1]] - nodes[pairs[:, 0]]
-    normals = between / np.linalg.norm(between, axis=1, keepdims=True)
-    root = joint_stiffness(normals, np.sqrt(np.broadcast_to(stiffness, (len(pairs), 4))))
-    sides = equilibrium_matrix(nodes, pairs, nodes[pairs].mean(axis=1)).T
-    return moving_parts(pairs, sides, root @ sides, np.asarray(removed, dtype=np.intp))
+    constants = np.broadcast_to(stiffness, (len(pairs), 4))
+    frame = spring_frame(nodes, pairs, nodes[pairs].mean(axis=1), constants)
+    return moving_parts(frame.without(np.asarray(removed, dtype=np.intp)))
 
 
 def parts_by_constraints(nodes, pairs, takes_moment):

@@ -13,7 +13,7 @@ from rheoclast.particles.morphology import coordination_numbers, mean_coordinati
 @pytest.mark.parametrize(("count", "seed"), [(1, 0), (2, 0), (3, 0), (4, 1), (30, 2), (800, 3)])
 def test_exact_and_isostatic(assert_exactly_touching, count, seed):
     """3 N − 6 contacts: each sphere after the third touches exactly three placed before it."""
-    ball = random_packed_ball(count, 4e-7, seed)
+    ball = random_packed_ball(count, 4e-7, seed=seed)
     assert_exactly_touching(ball, count, 4e-7)
     if count >= 3:
         assert len(ball.pairs) == 3 * count - 6

@@ -24,7 +24,7 @@ def test_ring_is_one_loop_in_a_plane(assert_exactly_touching, count):
 @pytest.mark.parametrize(("arm", "arms"), [(1, 4), (5, 4), (1, 6), (4, 6)])
 def test_cross_has_arms_of_equal_length(assert_exactly_touching, arm, arms):
     """A tree with one centre, `arms` ends and the rest in between; sphere 0 is the centre, the first arm on +x."""
-    star = cross(arm, 2.0, arms)
+    star = cross(arm, 2.0, arms=arms)
     assert_exactly_touching(star, 1 + arm * arms, 2.0)
     assert star.is_tree
     share = coordination_distribution(star) * len(star)

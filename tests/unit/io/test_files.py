@@ -32,3 +32,11 @@ def test_what_fails_leaves_the_old_file_alone(tmp_path):
     with pytest.raises(KeyboardInterrupt):
         write(tmp_path / "a.txt", "half")
     assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("a.txt", "old")]
+
+
+def test_a_folder_that_takes_no_files_is_told_by_the_name_that_was_given(tmp_path):
+    with (
+        pytest.raises(OSError, match=r"^/proc/floc.csv: cannot be written \(.*\); choose another folder$"),
+        replacing("/proc/floc.csv") as temporary,
+    ):
+        temporary.write_text("x")

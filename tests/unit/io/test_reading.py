@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rheoclast import FileFormatError, GeometryError, UnitWarning
+from rheoclast import FileFormatError, GeometryError, GeometryWarning, UnitWarning
 from rheoclast.io import read, read_spheres
 
 TWO = "0 0 0 1\n2 0 0 1\n"
@@ -12,7 +12,15 @@ POSITIONS = "0 0 0\n2 0 0\n"
 
 @pytest.mark.parametrize(
     ("unit", "metres"),
-    [("nm", 1e-9), ("um", 1e-6), ("\u00b5m", 1e-6), ("\u03bcm", 1e-6), ("angstrom", 1e-10), (2e-7, 2e-7)],
+    [
+        ("nm", 1e-9),
+        ("um", 1e-6),
+        ("\u00b5m", 1e-6),
+        ("\u03bcm", 1e-6),
+        ("angstrom", 1e-10),
+        ("\u00c5", 1e-10),
+        (2e-7, 2e-7),
+    ],
 )
 def test_unit_scales_positions_and_radii(unit, metres, file):
     spheres = read_spheres(file("two.txt", TWO), unit)
@@ -88,6 +96,30 @@ def test_tolerances_reach_the_geometry(file):
     assert len(read(path, "nm", overlap_tolerance=0.06).pairs) == 1
 
 
+def test_a_wide_gap_in_a_contact_that_is_given_warns(file):
+    """Contacts counted from 1, the usual slip, join spheres that are far apart."""
+    spheres = file("chain.csv", "x,y,z,radius\n0,0,0,1\n2,0,0,1\n4,0,0,1\n6,0,0,1\n")
+    contacts = file("contacts.csv", "i,j\n0,1\n1,2\n1,3\n")
+    message = r"contacts.csv: contact 2 joins spheres 1 and 3 across a gap of 2 mean radii; are spheres counted from 0"
+    with pytest.warns(GeometryWarning, match=message):
+        read(spheres, "um", contacts=contacts)
+    with pytest.warns(
+        GeometryWarning, match=r"contact 1 joins .* gap of 2 .* \(and 2 more\); is the tolerance of 5 me"
+    ):
+        read(spheres, "um", tolerance=5.0)
+
+
+def test_a_gap_of_bad_resolution_does_not_warn(file):
+    assert read(file("two.txt", "0 0 0 1\n2.4 0 0 1\n"), "um", tolerance=0.45).gaps == pytest.approx(0.4)
+
+
+def test_a_decimal_comma_is_told(file):
+    with pytest.raises(
+        FileFormatError, match=r"line 2: expected a number, got '2,5'; write decimal points, not commas"
+    ):
+        read(file("two.csv", "x;y;z;radius\n2,5;0;0;1\n"))
+
+
 def test_missing_file(tmp_path):
     with pytest.raises(
         FileNotFoundError, match=r"gone.dat: there is no such file; check its name and the current folder"
@@ -116,8 +148,8 @@ def test_binary_garbage(suffix, file):
         read(file(f"junk.{suffix}", garbage))
 
 
-def test_utf16_is_taken_for_binary(file):
-    with pytest.raises(FileFormatError, match="expected a text file, got binary data"):
+def test_utf16_is_refused_by_name(file):
+    with pytest.raises(FileFormatError, match="expected text in UTF-8, got UTF-16; save it as UTF-8"):
         read(file("two.txt", TWO.encode("utf-16")))
 
 

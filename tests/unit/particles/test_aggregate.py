@@ -159,15 +159,15 @@ def test_refused_tolerance():
 
 def test_a_loose_sphere_is_named():
     """The message names the loose sphere, the nearest other one and the tolerance that would join them."""
-    spheres = rc.Spheres([[0, 0, 0], [2, 0, 0], [4.5, 0, 0]], 1.0)
+    spheres = rc.Spheres([[0, 0, 0], [2, 0, 0], [4.25, 0, 0]], 1.0)
     with pytest.raises(
         rc.GeometryError,
         match=r"^the aggregate is in 2 parts, expected one: sphere 2 \(1 of 3\) touches no other part; "
-        r"nearest are spheres 2 and 1 with a gap of 0\.5 mean radii; "
+        r"nearest are spheres 2 and 1 with a gap of 0\.25 mean radii; "
         r"raise the contact tolerance above it or remove the loose part$",
     ):
         rc.Aggregate.touching(spheres)
-    assert rc.Aggregate.touching(spheres, tolerance=0.500001).is_tree
+    assert rc.Aggregate.touching(spheres, tolerance=0.250001).is_tree
 
 
 def test_a_long_loose_part_is_abbreviated():
@@ -177,7 +177,8 @@ def test_a_long_loose_part_is_abbreviated():
     with pytest.raises(
         rc.GeometryError,
         match=r"in 2 parts, expected one: spheres 0, 1, 2, 3, 4, 5, 6, 7, … \(10 of 22\) touch no other part; "
-        r"nearest are spheres (\d) and 1\1 with a gap of 3 mean radii",
+        r"nearest are spheres (\d) and 1\1 with a gap of 3 mean radii; "
+        r"are these several aggregates, or one cut by a periodic box\?",
     ):
         rc.Aggregate.touching(rc.Spheres(line + other, 1.0))
 

@@ -10,7 +10,7 @@ from rheoclast.populations.breakage_rate import (
     WaitingTimes,
     breakage_rate,
     exceedance_rate,
-    first_exceedance_times,
+    first_failure_times,
     poisson_rate,
 )
 
@@ -43,30 +43,30 @@ OVERLOADED = sampled([0, 3, 4, 9], [3, 0, 3, 0])
 
 class TestWaiting:
     def test_by_hand(self):
-        waiting = first_exceedance_times([RISING, HOLDING, OVERLOADED])
+        waiting = first_failure_times([RISING, HOLDING, OVERLOADED])
         np.testing.assert_allclose(waiting.times, [2, 7])
         assert waiting.failed.tolist() == [True, False]
         assert waiting.overloaded == 1
 
     def test_scale(self):
-        waiting = first_exceedance_times([RISING, HOLDING], scale=4.0)
+        waiting = first_failure_times([RISING, HOLDING], level=1 / 4)
         np.testing.assert_allclose(waiting.times, [0.5, 3.125], rtol=1e-9)
         assert waiting.failed.all()
-        assert not first_exceedance_times([RISING, OVERLOADED], scale=0.1).failed.any()
+        assert not first_failure_times([RISING, OVERLOADED], level=10).failed.any()
 
     def test_a_generator_is_read_once(self):
-        assert len(first_exceedance_times(each for each in (RISING, HOLDING)).times) == 2
+        assert len(first_failure_times(each for each in (RISING, HOLDING)).times) == 2
 
     def test_failure_after_zero_crosses_from_negative_ratios(self):
-        assert first_exceedance_times([sampled([-3, 1], [-1, 1])], scale=1.0).times == pytest.approx(4.0)
+        assert first_failure_times([sampled([-3, 1], [-1, 1])], level=1.0).times == pytest.approx(4.0)
 
     def test_refused(self):
         with pytest.raises(ValueError, match=r"not start overloaded, got 1 of 1 that do; give more"):
-            first_exceedance_times([OVERLOADED])
+            first_failure_times([OVERLOADED])
         with pytest.raises(ValueError, match=r"not start overloaded, got 0 of 0 that do; give more"):
-            first_exceedance_times([])
+            first_failure_times([])
         with pytest.raises(TypeError, match=r"histories\[1\]: expected LoadHistory, got int; make one with"):
-            first_exceedance_times([RISING, 3])
+            first_failure_times([RISING, 3])
         with pytest.raises(ValueError, match=r"times\[1\]: expected a positive number, got 0"):
             WaitingTimes([1.0, 0.0], [True, True])
         with pytest.raises(ValueError, match=r"failed: expected 2 of True and False, one per time, got int"):
@@ -78,7 +78,7 @@ class TestWaiting:
 class TestPoisson:
     @pytest.mark.parametrize("events", [1, 4, 60])
     def test_bounds_are_the_rates_at_which_the_count_would_be_extreme(self, events):
-        found = poisson_rate(events, 20.0, 0.9)
+        found = poisson_rate(events, 20.0, confidence=0.9)
         lower, upper = (20.0 * bound for bound in found.interval)
         assert poisson.sf(events - 1, lower) == pytest.approx(0.05, rel=1e-9)
         assert poisson.cdf(events, upper) == pytest.approx(0.05, rel=1e-9)
@@ -86,7 +86,7 @@ class TestPoisson:
 
     def test_nothing_happened(self):
         """Rule of three: with 95 % confidence to one side, at most three over the time."""
-        found = poisson_rate(0, 5.0, 0.9)
+        found = poisson_rate(0, 5.0, confidence=0.9)
         assert (found.rate, found.interval[0]) == (0, 0)
         assert found.interval[1] == pytest.approx(-np.log(0.05) / 5)
 
@@ -99,8 +99,8 @@ class TestPoisson:
 
 def test_rate_by_hand():
     found = breakage_rate(WaitingTimes([1.0, 2.0, 5.0], [True, True, False]))
-    assert (found.failures, found.time, found.rate) == (2, 8.0, 0.25)
-    with pytest.raises(TypeError, match="waiting: expected WaitingTimes, got list; make one with first_exc"):
+    assert (found.events, found.time, found.rate) == (2, 8.0, 0.25)
+    with pytest.raises(TypeError, match="waiting: expected WaitingTimes, got list; make them with first_f"):
         breakage_rate([1.0])
 
 
@@ -122,7 +122,7 @@ class TestExceedanceRate:
     def test_by_hand(self):
         """OVERLOADED is below 1 from 2 s to 3⅓ s and from 7⅓ s on; RISING for 2 s, HOLDING throughout."""
         found = exceedance_rate([RISING, HOLDING, OVERLOADED])
-        assert found.failures == 2
+        assert found.events == 2
         assert found.time == pytest.approx(2 + 7 + 4 / 3 + 5 / 3)
         assert found.rate == pytest.approx(2 / 12)
         assert found.interval == poisson_rate(2, found.time).interval
@@ -130,8 +130,8 @@ class TestExceedanceRate:
     def test_waves(self):
         """A sine crosses upwards once per period, and is below ½ for two thirds of it."""
         times = np.linspace(0, 50, 50_001)
-        found = exceedance_rate([sampled(times, np.sin(2 * np.pi * (times - 0.25)))], scale=2.0)
-        assert found.failures == 50
+        found = exceedance_rate([sampled(times, np.sin(2 * np.pi * (times - 0.25)))], level=1 / 2)
+        assert found.events == 50
         assert found.rate == pytest.approx(1.5, rel=1e-4)
 
     def test_memoryless_switching_meets_first_failures(self):
@@ -144,9 +144,9 @@ class TestExceedanceRate:
             times = np.concatenate([[0], np.stack([ends, ends + 1e-9], axis=1).ravel()])
             histories.append(sampled(times, np.append(np.tile([0, 0, 2, 2], 20), 0)))
         crossings = exceedance_rate(histories)
-        assert crossings.failures == 4000
+        assert crossings.events == 4000
         assert crossings.rate == pytest.approx(0.8, rel=0.05)
-        first = breakage_rate(first_exceedance_times(histories))
+        first = breakage_rate(first_failure_times(histories))
         assert first.interval[0] < crossings.rate < first.interval[1]
 
     def test_refused(self):

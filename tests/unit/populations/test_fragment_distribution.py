@@ -38,7 +38,7 @@ def test_by_hand():
 @pytest.mark.parametrize("bins", [1, 7, [0, 0.01, 1]])
 def test_mass_and_number_are_conserved(bins):
     rng = np.random.default_rng(3)
-    found = fragment_distribution([rng.exponential(size=rng.integers(2, 9)) for _ in range(50)], bins)
+    found = fragment_distribution([rng.exponential(size=rng.integers(2, 9)) for _ in range(50)], bins=bins)
     assert found.number.sum() == pytest.approx(1, rel=1e-12)
     assert found.mass.sum() == pytest.approx(1, rel=1e-12)
     assert found.daughter_density @ np.diff(found.edges) == pytest.approx(found.mean_fragments, rel=1e-12)

@@ -42,7 +42,7 @@ def test_refused():
         KernelEntry(1, 1, 0, poisson_rate(1, 1.0))
     with pytest.raises(ValueError, match="critical_dissipation: expected a positive number, got -1"):
         KernelEntry(1, 1, 1, poisson_rate(1, 1.0), -1)
-    with pytest.raises(TypeError, match="rate: expected BreakageRate, got float; make one with breakage_rate"):
+    with pytest.raises(TypeError, match="rate: expected EventRate, got float; make one with breakage_rate"):
         KernelEntry(1, 1, 1, 0.3)
     with pytest.raises(TypeError, match="fragments: expected FragmentDistribution, got list; make one with"):
         KernelEntry(1, 1, 1, poisson_rate(1, 1.0), 1, [1, 2])

@@ -70,6 +70,7 @@ def test_mean_square_load_over_orientations_is_that_of_the_closed_form():
 
 def test_seed_decides():
     np.testing.assert_array_equal(rc.random_orientations(5, seed=3), rc.random_orientations(5, seed=3))
+    np.testing.assert_array_equal(rc.random_orientations(9, seed=3)[:5], rc.random_orientations(5, seed=3))
     assert not np.allclose(rc.random_orientations(5, seed=3), rc.random_orientations(5, seed=4))
     with pytest.raises(ValueError, match="read-only"):
         rc.random_orientations(1, seed=3)[0] = 0
@@ -79,3 +80,9 @@ def test_seed_decides():
 def test_refused_counts(count):
     with pytest.raises(ValueError, match=rf"^count: expected an integer of at least 1, got {count!r}$"):
         rc.random_orientations(count, seed=1)
+
+
+@pytest.mark.parametrize("seed", [-1, None, 1.0])
+def test_refused_seeds(seed):
+    with pytest.raises(ValueError, match=rf"^seed: expected an integer of at least 0, got {seed!r}$"):
+        rc.random_orientations(2, seed)

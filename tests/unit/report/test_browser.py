@@ -3,29 +3,18 @@
 import base64
 import csv
 import io
-import os
 import re
-import shutil
+from itertools import combinations
 
 import numpy as np
 import pytest
 from PIL import Image
 
 import rheoclast as rc
-from rheoclast.report import write_report
 from rheoclast.view.projection import view_axes
 
 sync_api = pytest.importorskip("playwright.sync_api", reason="needs playwright: pip install playwright")
 
-NAMES = ("chromium", "chromium-browser", "google-chrome")
-BROWSER = os.environ.get("RHEOCLAST_BROWSER") or next(filter(None, map(shutil.which, NAMES)), None)
-pytestmark = pytest.mark.skipif(
-    BROWSER is None, reason="needs a browser: install chromium, or set RHEOCLAST_BROWSER to the path of one"
-)
-ARGUMENTS = (
-    *("--no-sandbox", "--disable-gpu", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic"),
-    *("--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"),
-)
 WITHOUT_WEBGL = """
 const original = HTMLCanvasElement.prototype.getContext;
 HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
@@ -37,44 +26,9 @@ SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 LOADS = {"tension": "tension_N", "shear": "shear_N", "bending": "bending_Nm", "load_ratio": "load_ratio"}
 
 
-@pytest.fixture(scope="module")
-def browser():
-    with sync_api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=BROWSER, args=list(ARGUMENTS))
-        yield browser
-        browser.close()
-
-
-@pytest.fixture
-def opened(browser, tmp_path):
-    """Open the page on a folder of results; afterwards nothing may have gone wrong or been asked of a network."""
-    contexts, problems = [], []
-
-    def on_console(message):
-        if message.type in ("error", "warning") and "GL Driver Message" not in message.text:  # of reading pixels
-            problems.append(message.text)
-
-    def opened(folder, width=800, scheme="light", script=None):
-        write_report(folder, tmp_path / "page.html", overwrite=True)
-        contexts.append(browser.new_context(viewport={"width": width, "height": 600}, color_scheme=scheme))
-        page = contexts[-1].new_page()
-        page.on("console", on_console)
-        page.on("pageerror", lambda error: problems.append(str(error)))
-        page.on("request", lambda request: request.url.startswith("file:") or problems.append(request.url))
-        if script:
-            page.add_init_script(script)
-        page.goto((tmp_path / "page.html").as_uri())
-        page.wait_for_selector("#scale-bar")
-        return page
-
-    yield opened
-    for context in contexts:
-        context.close()
-    assert problems == []
-
-
 def picture(page):
     """The canvas (H, W, 3), in its own resolution, from 0 to 255."""
+    page.evaluate("new Promise(requestAnimationFrame)")
     data = page.evaluate("document.getElementById('scene').toDataURL().split(',')[1]")
     return np.asarray(Image.open(io.BytesIO(base64.b64decode(data))).convert("RGB")).astype(int)
 
@@ -136,7 +90,7 @@ def table(folder, name):
 
 @pytest.mark.parametrize(("width", "scheme"), [(400, "dark"), (900, "light"), (2000, "dark")])
 @pytest.mark.parametrize("name", ["stressed", "broken"])
-def test_opens_at_any_width(opened, request, name, width, scheme):
+def test_opens_at_any_width(opened, request, overlapping_texts, name, width, scheme):
     page = opened(request.getfixturevalue(name), width, scheme)
     assert page.evaluate("document.scrollingElement.scrollWidth") <= width
     shown = picture(page)
@@ -145,6 +99,7 @@ def test_opens_at_any_width(opened, request, name, width, scheme):
     assert (shown[0, 0].mean() > 128) == (scheme == "light")
     assert page.locator("#charts svg").count() >= 2
     assert page.locator("#charts .dot").count() >= 5
+    assert overlapping_texts(page) == []
 
 
 def test_shows_spheres_where_they_are(opened, stressed):
@@ -364,3 +319,67 @@ def test_a_hostile_name_is_text(opened, stressed, copied):
     (folder / "summary.json").write_text(text)
     page = opened(folder)
     assert page.inner_text("h1") == "<img src=x onerror=alert(1)>.dat"
+
+
+def test_contacts_too_small_to_be_seen_colour_their_spheres(opened, results):
+    """A long chain in an extension: red in the middle, pale at the ends; and picking works."""
+    chain = rc.generation.straight_chain(2100, radius=0.5e-6)
+    page = opened(results("stress", chain, "--model", "free-draining", "--flow", "biaxial"), width=1300)
+    assert "each sphere as its most loaded contact" in page.inner_text("#legend")
+    shown, mask = picture(page), covered(page)
+    redness = shown[..., 0] - shown[..., 2]
+    columns = np.flatnonzero(mask.any(axis=0))
+    if np.ptp(columns) < np.ptp(np.flatnonzero(mask.any(axis=1))):
+        redness, columns = redness.T, np.flatnonzero(mask.any(axis=1))
+    middle, end = columns[len(columns) // 2], columns[5]
+    assert redness[:, middle].max() > 100 > 40 > redness[:, end].max()
+    dots = page.locator("#charts figure").nth(1).locator(".dot")
+    assert 100 < dots.count() < 2099
+
+
+@pytest.fixture(scope="module")
+def cascaded(results):
+    cluster = rc.generation.compacted_cluster(30, radius=0.5e-6, amount=0.4, seed=1)
+    return results("break", cluster, "--rate", 1e7, "--cascade")
+
+
+def test_who_broke_into_whom(opened, cascaded):
+    """Every piece is as high as its number of spheres, and lies on the right of the one it came from."""
+    page = opened(cascaded)
+    pieces = table(cascaded, "pieces.csv")
+    blocks = {}
+    for block in page.locator("#charts .piece rect").all():
+        number = re.match(r"piece (\d+), ", block.text_content())[1]
+        blocks[int(number)] = [float(block.get_attribute(name)) for name in ("x", "y", "width", "height")]
+    assert len(blocks) == len(pieces) > 3
+    pixel = blocks[0][3] / len(pieces and rc.read(cascaded / "spheres.csv").spheres)
+    for k, piece in enumerate(pieces):
+        x, y, _, height = blocks[k]
+        assert height == pytest.approx(pixel * int(piece["spheres"]), abs=1.5)
+        if k:
+            left, top, _, high = blocks[int(piece["parent"])]
+            assert x > left
+            assert top - 1.5 <= y
+            assert y + height <= top + high + 1.5
+    for one, other in combinations(range(len(pieces)), 2):
+        if pieces[one]["generation"] == pieces[other]["generation"]:
+            (_, above, _, high), (_, below, *_) = sorted([blocks[one], blocks[other]], key=lambda block: block[1])
+            assert above + high <= below + 0.01
+    breaking = page.locator("#charts .piece.breaks").count()
+    assert breaking == sum(piece["holds"] == "0" for piece in pieces)
+
+
+def test_a_doublet_has_no_charts(opened, results):
+    page = opened(results("stress", "0 0 0 1\n2 0 0 1\n", "--unit", "um"))
+    assert page.locator("#charts figure").count() == 0
+
+
+def test_printed_view_is_not_distorted(opened, stressed):
+    """What stands beside the spheres is scaled as the picture is."""
+    page = opened(stressed, width=1300)
+    page.emulate_media(media="print")
+    page.set_viewport_size({"width": 680, "height": 900})
+    assert page.locator("#scene").evaluate("(canvas) => getComputedStyle(canvas).objectFit") == "contain"
+    canvas = page.locator("#scene").evaluate("(canvas) => canvas.width / canvas.height")
+    box = [float(each) for each in page.get_attribute("#overlay", "viewBox").split()[2:]]
+    assert canvas == pytest.approx(box[0] / box[1], rel=0.01)

@@ -73,3 +73,36 @@ def test_rounding_errors_are_zeros(results):
 
 def test_json_holds_finite_numbers_only(stressed):
     assert json.loads(json.dumps(content(read_result(stressed)), allow_nan=False))
+
+
+@pytest.fixture(scope="module")
+def cascaded(results):
+    """A cluster with loops at a rate at which its fragments break too."""
+    cluster = rc.generation.compacted_cluster(30, radius=0.5e-6, amount=0.4, seed=1)
+    return results("break", cluster, "--rate", 1e7, "--cascade")
+
+
+def test_pieces_of_a_cascade(cascaded, rows):
+    """As in the file, with nothing where there is no parent and no rate."""
+    written = rows(cascaded / "pieces.csv")
+    pieces = content(read_result(cascaded))["tables"]["pieces"]["rows"]
+    assert len(written) > 3
+    assert pieces["parent"] == [None, *(int(row["parent"]) for row in written[1:])]
+    assert pieces["spheres"] == [int(row["spheres"]) for row in written]
+    assert pieces["holds"] == ["yes" if row["holds"] == "1" else "no" for row in written]
+    for shown, row in zip(pieces["initiation_rate"], written, strict=True):
+        exact = float(row["initiation_rate_per_s"])
+        assert shown is None if np.isinf(exact) else shown == pytest.approx(exact, rel=1e-4)
+
+
+def test_no_pieces_without_a_cascade(broken):
+    assert "pieces" not in content(read_result(broken))["tables"]
+
+
+def test_unit_of_errors_where_the_value_is_zero(results):
+    """A doublet along a shear: its tension is zero, but for the error of the multipole order."""
+    drawn = content(read_result(results("stress", "0 0 0 1\n2 0 0 1\n", "--unit", "um", "--rate", 1e5)))
+    rows = drawn["tables"]["contacts"]["rows"]
+    assert rows["tension"] == [0.0]
+    assert 1 <= rows["tension_error"][0] < 1000
+    assert next(load for load in drawn["loads"] if load["key"] == "tension")["unit"] == "pN"

@@ -84,6 +84,6 @@ def test_default_place_and_overwriting(stressed, copied):
 
 
 def test_nothing_is_written_when_refused(tmp_path):
-    with pytest.raises(FileNotFoundError, match="expected the results of stress or break"):
+    with pytest.raises(FileNotFoundError, match="expected the results of stress, break or survey"):
         write_report(tmp_path, tmp_path / "page.html")
     assert not list(tmp_path.iterdir())

@@ -59,6 +59,16 @@ def test_dimensionless(results):
     np.testing.assert_allclose(np.diff(result.spheres["x"]), 2)
 
 
+def test_rounding_errors_of_loads_are_zeros(results):
+    """Of a chain along the axis of an extension, which has neither shear nor moments."""
+    contacts = read_result(
+        results("stress", "0 0 0 1\n2 0 0 1\n4 0 0 1\n", "--unit", "um", "--flow", "biaxial")
+    ).contacts
+    assert (contacts["tension"] > 0).all()
+    for load in ("shear", "bending", "twisting"):
+        np.testing.assert_array_equal(contacts[load], 0)
+
+
 def test_nothing_fails(results):
     """A doublet that is compressed: no failures and one fragment."""
     result = read_result(results("break", "0 0 0 1\n2 0 0 1\n", "--unit", "um", "--flow", "uniaxial"))
@@ -122,4 +132,12 @@ class TestRefusals:
         del told["near_ties"]
         (folder / "summary.json").write_text(json.dumps(told))
         with pytest.raises(rc.FileFormatError, match="got one without near_ties; write it anew"):
+            read_result(folder)
+
+    def test_cascade_without_pieces(self, results, copied):
+        cluster = rc.generation.straight_chain(4, radius=0.5e-6)
+        folder = copied(results("break", cluster, "--flow", "biaxial", "--rate", 1e9, "--cascade"))
+        assert len(read_result(folder).pieces["parent"]) == 7
+        (folder / "pieces.csv").unlink()
+        with pytest.raises(FileNotFoundError, match=r"pieces\.csv: there is no such file"):
             read_result(folder)

@@ -68,6 +68,23 @@ def test_cascade(results):
     told = json.loads((folder / "summary.json").read_text())
     rows = {label: value for group in summary(read_result(folder)).groups for label, value in group.rows}
     assert rows["Hold at 1 × 10⁹ 1/s"].startswith(f"{len(told['cascade']['sizes'])} pieces: ")
+    assert figures(folder)["Pieces that hold at 1 × 10⁹ 1/s"].value == str(len(told["cascade"]["sizes"]))
+
+
+def test_rounding_errors_are_no_loads(results):
+    """A doublet along a shear is not pulled apart; what the sum of its loads leaves is no tension."""
+    folder = results("stress", "0 0 0 1\n2 0 0 1\n", "--unit", "um", "--rate", 1e5)
+    found = figures(folder)
+    assert found["Critical rate, as it lies"].value == found["Largest tension"].value == "none"
+    assert found["Critical rate, worst orientation"].value.endswith("1/s")
+    rows = {label: value for group in summary(read_result(folder)).groups for label, value in group.rows}
+    assert rows["Largest shear"].endswith("pN")
+    assert rows["Largest twisting"] == "none"
+
+
+def test_a_tree_splits_with_its_first_failure(results):
+    folder = results("break", "0 0 0 1\n2 0 0 1\n4 0 0 1\n6 0 0 1\n", "--unit", "um", "--flow", "biaxial")
+    assert figures(folder)["Breakup rate"].note == "with the first failure"
 
 
 @pytest.mark.parametrize("name", ["stressed", "broken"])

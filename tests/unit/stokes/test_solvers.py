@@ -104,8 +104,8 @@ def test_order_of_the_model(order):
 
 
 @pytest.mark.parametrize(
-    ("tolerance", "message"), [(0, "a positive number, got 0"), (-0.1, "a positive number, got -0.1")]
+    ("accuracy", "message"), [(0, "a positive number, got 0"), (-0.1, "a positive number, got -0.1")]
 )
-def test_tolerance_of_the_model(tolerance, message):
-    with pytest.raises(ValueError, match=f"tolerance: expected {message}"):
-        rc.StokesianDynamics(order="auto", tolerance=tolerance)
+def test_accuracy_of_the_model(accuracy, message):
+    with pytest.raises(ValueError, match=f"accuracy: expected {message}"):
+        rc.StokesianDynamics(order="auto", accuracy=accuracy)

@@ -30,6 +30,82 @@ def test_histogram_of_equal_and_of_no_loads():
         assert sum(bar.get_height() for bar in bars) == 7
 
 
+def test_histogram_spans_what_there_is():
+    for sign, limits in ((1, (0, 2)), (-1, (-2, 0))):
+        bars = axes_of(view.draw_load_distribution(sign * np.linspace(0.5, 2, 20), unit=None)).patches
+        ends = [bar.get_x() for bar in bars] + [bar.get_x() + bar.get_width() for bar in bars]
+        assert (min(ends), max(ends)) == pytest.approx(limits)
+
+
+def test_counts_are_logarithmic_only_where_one_bar_dwarfs_the_others():
+    rare = np.append(np.full(5000, 0.1), np.linspace(-10, 10, 40))
+    assert axes_of(view.draw_load_distribution(rare)).get_yscale() == "log"
+    assert axes_of(view.draw_load_distribution(np.linspace(-10, 10, 5000))).get_yscale() == "linear"
+
+
+def test_counts_are_marked_at_whole_numbers():
+    ticks = axes_of(view.draw_load_distribution([1.0, 2.0, 2.0])).get_yticks()
+    np.testing.assert_array_equal(ticks, np.round(ticks))
+
+
+def tick_boxes(axis):
+    """Extents of the labels that are seen, in pixels."""
+    axis.figure.draw_without_rendering()
+    low, high = sorted(axis.get_view_interval())
+    ticks = [*axis.get_major_ticks(), *axis.get_minor_ticks()]
+    return [
+        tick.label1.get_window_extent() for tick in ticks if tick.label1.get_text() and low <= tick.get_loc() <= high
+    ]
+
+
+@pytest.mark.parametrize("ratio", [1, 1.05, 3, 12, 99, 1e3, 1e5])
+def test_numbers_on_logarithmic_axes_do_not_run_into_each_other(ratio):
+    values = 2e-6 * np.geomspace(1, ratio, 30)
+    axes = axes_of(view.draw_critical_rates(values, 1e10 * values))
+    for axis in (axes.xaxis, axes.yaxis):
+        boxes = tick_boxes(axis)
+        assert len(boxes) >= 2
+        assert not any(box.overlaps(other) for k, box in enumerate(boxes) for other in boxes[:k])
+
+
+def test_dots_of_very_many_points_are_small_and_rasterized():
+    radii = np.geomspace(1, 10, 20_000)
+    few, many = (axes_of(view.draw_critical_rates(each, each)).lines[0] for each in (radii[::2000], radii))
+    assert many.get_markersize() < 0.6 * few.get_markersize()
+    assert many.get_rasterized()
+    assert not few.get_rasterized()
+
+
+def test_long_names_are_not_cut_off():
+    quantity = "tension over the strength of the weakest contact of each aggregate of the whole ensemble"
+    halves = rc.fragment_distribution([[1, 1]] * 30, bins=4)
+    names = [f"a family of aggregates with a name that is rather long for the legend of a chart {k}" for k in range(6)]
+    for figure in (
+        view.draw_load_distribution([1.0, 2.0], quantity=quantity, unit=None),
+        view.draw_load_against_position(straight_chain(3), [1.0, 2.0], quantity=quantity[:75], unit=None),
+        view.draw_fragment_distributions(dict.fromkeys(names, halves)),
+    ):
+        figure.draw_without_rendering()
+        axes = axes_of(figure)
+        legend = axes.get_legend()
+        texts = [axes.xaxis.label, axes.yaxis.label, *(legend.get_texts() if legend else [])]
+        for text in texts:
+            box = text.get_window_extent()
+            assert min(box.x0, box.y0) >= 0
+            assert box.x1 <= figure.bbox.x1
+            assert box.y1 <= figure.bbox.y1
+
+
+def test_legend_of_distributions_is_above_them():
+    halves = rc.fragment_distribution([[1, 1]] * 30, bins=4)
+    figure = view.draw_fragment_distributions(dict.fromkeys(("one", "two", "three"), halves))
+    figure.draw_without_rendering()
+    axes = axes_of(figure)
+    assert axes.get_legend().get_window_extent().y0 >= axes.get_window_extent().y1 - 1
+    heights = {text.get_window_extent().y0 // 3 for text in axes.get_legend().get_texts()}
+    assert len(heights) == 1
+
+
 def test_load_against_position():
     aggregate = cluster_cluster(100, radius=1.0, seed=1)
     values = np.linspace(-2e-6, 5e-6, 99)
@@ -58,7 +134,9 @@ def test_fragment_distributions():
     axes = axes_of(view.draw_fragment_distributions({"halves": halves, "thirds": thirds}))
     np.testing.assert_allclose(axes.lines[0].get_ydata(), [0, 0, 8, 0])
     np.testing.assert_allclose(axes.lines[1].get_ydata(), [0, 4, 4, 0])
-    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["halves", "thirds"]
+    legend = axes.get_legend()
+    assert [text.get_text() for text in legend.get_texts()] == ["halves", "thirds"]
+    assert [handle.get_color() for handle in legend.legend_handles] == [line.get_color() for line in axes.lines]
 
 
 def test_convergence_is_the_difference_from_the_highest_order():

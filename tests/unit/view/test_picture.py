@@ -58,13 +58,13 @@ def test_picture_is_not_blank_and_its_border_is_white():
     assert all((edge == 1).all() for edge in (image[0], image[-1], image[:, 0], image[:, -1]))
 
 
-@pytest.mark.parametrize("dots_per_inch", [100, 160, 173.3])
+@pytest.mark.parametrize("dots_per_inch", [74.18677918682775, 80, 100, 160, 173.3])
 def test_image_is_shown_pixel_for_pixel(dots_per_inch):
     figure = draw(BENT, title="Bent", dots_per_inch=dots_per_inch)
     shown = spheres_part(figure)
     shown = shown[-figure.axes[0].images[0].get_array().shape[0] :]
     image = np.asarray(figure.axes[0].images[0].get_array())[::-1]
-    assert image.shape[1] == shown.shape[1]
+    assert image.shape[:2] == shown.shape[:2]
     expected = image[..., :3] * image[..., 3:] + 1 - image[..., 3:]
     assert np.abs(shown - expected).max() < 0.02
 
@@ -75,6 +75,14 @@ def test_tension_is_red_and_compression_blue(value, sign):
     colour = image[..., 0] - image[..., 2]
     assert sign * colour.sum() > 1000
     assert (sign * colour).max() > 0.4
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_loads_of_spheres_of_a_pixel_are_seen(sign):
+    chain = touching([[2 * k, 0, 0] for k in range(300)])
+    image = spheres_part(draw(chain, np.full(299, sign * 1e-9), size=(4.5, 2.5), dots_per_inch=100))
+    covered = (image < 0.9).any(axis=2)
+    assert (sign * (image[..., 0] - image[..., 2]))[covered].mean() > 0.2
 
 
 def test_without_values_the_spheres_are_grey():
@@ -281,12 +289,28 @@ class TestForces:
             draw(BENT, forces=np.full((6, 3), 3e-9 / np.sqrt(3)))
         )
 
-    def test_only_the_largest_of_many(self):
-        aggregate = grown(320)
-        forces = np.random.default_rng(1).normal(size=(320, 3))
-        figure = draw(aggregate, forces=forces, unit=None)
-        assert len(self.arrows(figure).U) == 300
-        assert any("300 largest of 320" in text for text in texts(figure))
+    def test_only_the_largest_of_every_place_of_many(self):
+        """A chain of 320 spheres on the x axis: of those in a square of 9 points the one with the largest force."""
+        chain = touching([[2 * k, 0, 0] for k in range(320)])
+        size = 1 + np.random.default_rng(1).uniform(size=320)
+        figure = draw(chain, forces=size[:, None] * [0.0, 1, 0], unit=None, view_direction=(0, 0, 1), dots_per_inch=72)
+        quiver = self.arrows(figure)
+        (image,) = figure.axes[0].images
+        covered = np.flatnonzero((image.get_array()[..., 3] > 0).any(axis=0))
+        x = covered[0] + (np.arange(320) + 0.5) * len(covered) / 320
+        largest = [size[x // 9 == place].max() for place in np.unique(x // 9)]
+        assert quiver.V / quiver.V.max() * size.max() == pytest.approx(sorted(largest)[::-1])
+        assert any(f"({len(largest)} of 320 drawn)" in text for text in texts(figure))
+
+    def test_at_most_300(self):
+        forces = np.random.default_rng(1).normal(size=(900, 3))
+        sheet = touching([[2 * j, 2 * k, 0] for j in range(30) for k in range(30)])
+        assert len(self.arrows(draw(sheet, forces=forces, dots_per_inch=72)).U) == 300
+
+    def test_arrows_of_tiny_spheres_are_long_enough_to_be_seen(self):
+        chain = touching([[2 * k, 0, 0] for k in range(400)])
+        quiver = self.arrows(draw(chain, forces=np.tile([0.0, 1, 0], (400, 1)), view_direction=(0, 0, 1)))
+        assert np.hypot(quiver.U, quiver.V) == pytest.approx(18 * 160 / 72)
 
     def test_no_forces_no_arrows(self):
         figure = draw(BENT, forces=np.zeros((6, 3)))

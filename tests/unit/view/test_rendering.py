@@ -68,6 +68,38 @@ def test_paint_has_the_colour_of_its_contact(colour, sign):
     assert difference * sign > 0.3 if sign else abs(difference) < 0.05
 
 
+@pytest.mark.parametrize(("radius", "reach"), [(40.0, 36.0), (3.0, 4.0), (1.0, 2.0)])
+def test_collars_are_a_share_of_the_radius_but_not_too_small_to_be_seen(radius, reach):
+    collars = Collars.around(np.array([[0, 1]]), np.zeros((1, 3)), np.array([radius]), 0.9, np.array([RED]))
+    assert collars.reaches == pytest.approx([reach])
+
+
+def test_contacts_behind_other_spheres_are_not_seen():
+    """Contact 0 joins two spheres that a third hides, contact 1 joins the third and a fourth beside it."""
+    centers = np.array([[60.0, 60, -300], [60.0, 60, -380], [60.0, 60, 0], [160.0, 60, 0]])
+    radii = np.array([40.0, 40, 50, 50])
+    points = np.array([[60.0, 60, -340], [110.0, 60, 0]])
+    collars = Collars(np.array([[0, 1], [2, 3]]), points, np.full(2, 36.0), np.array([RED, BLUE]))
+    assert set(np.unique(render(centers, radii, collars, 220, 120).contact)) == {NOTHING, 1}
+
+
+def test_contact_with_a_hidden_sphere_is_seen_on_the_other():
+    centers, radii = np.array([[60.0, 60, 0], [120.0, 60, 0], [125.0, 60, 100]]), np.array([40.0, 20, 26])
+    collars = Collars(np.array([[0, 1]]), np.array([[100.0, 60, 0]]), np.array([36.0]), np.array([RED]))
+    rendering = render(centers, radii, collars, 200, 120)
+    assert not (rendering.owner == 1).any()
+    assert (rendering.contact[rendering.owner == 0] == 0).any()
+
+
+def test_spheres_of_a_pixel_are_not_all_rim():
+    """They are as bright as large ones, whose rim is a small part of them."""
+    brightness = []
+    for radius in (1.3, 30.0):
+        image = render(np.array([[40.0, 40, 0]]), np.array([radius]), no_collars(), 80, 80).image
+        brightness.append(np.average(image[..., :3].mean(axis=2), weights=image[..., 3]))
+    assert brightness[0] == pytest.approx(brightness[1], abs=0.1)
+
+
 def test_paint_does_not_reach_a_third_sphere():
     centers, radii = np.array([[60.0, 60, 0], [140.0, 60, 0], [100.0, 60, 27]]), np.array([40.0, 40, 8])
     collars = Collars(np.array([[0, 1]]), np.array([[100.0, 60, 0]]), np.array([36.0]), np.array([RED]))

@@ -12,12 +12,7 @@ from rheoclast._checks import FloatArray
 from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.contact_loads import ContactLoads
 from rheoclast.mechanics.criteria.criterion import Criterion
-from rheoclast.mechanics.criteria.rolling import Rolling
-from rheoclast.mechanics.criteria.sliding import Sliding
-from rheoclast.mechanics.criteria.tension import Tension
-from rheoclast.mechanics.criteria.twisting import Twisting
-
-SINGLE = (Tension(), Sliding(), Rolling(), Twisting())
+from rheoclast.mechanics.criteria.load_ratios import EVERY_LIMIT, load_ratios
 
 
 @final
@@ -44,11 +39,11 @@ class Combined(Criterion):
     @property
     def strengths(self) -> tuple[str, ...]:
         """All four strengths."""
-        return tuple(strength for single in SINGLE for strength in single.strengths)
+        return EVERY_LIMIT.strengths
 
     def load_ratio(self, loads: ContactLoads, bonds: Bonds) -> FloatArray:
         """(Σ r^p)^(1/p) (..., C), proportional to the loads."""
-        ratios = np.stack([np.maximum(single.load_ratio(loads, bonds), 0.0) for single in SINGLE])
-        largest = ratios.max(axis=0)
-        relative = ratios / np.where(largest > 0, largest, 1.0)  # whose high powers do not vanish
-        return largest * np.linalg.norm(relative, ord=self.exponent, axis=0)
+        ratios = np.maximum(load_ratios(loads, bonds), 0.0)
+        largest = ratios.max(axis=-1)
+        relative = ratios / np.where(largest > 0, largest, 1.0)[..., None]  # whose high powers do not vanish
+        return largest * np.linalg.norm(relative, ord=self.exponent, axis=-1)

@@ -1,16 +1,21 @@
-"""The interface of every failure criterion."""
+"""The interface of every failure criterion, and failure by whichever of several is met first."""
 
 from __future__ import annotations
 
+import re
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING
+from collections import Counter
+from dataclasses import dataclass
+from typing import final
 
+import numpy as np
+
+from rheoclast import _checks
 from rheoclast._checks import FloatArray
 from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.contact_loads import ContactLoads
 
-if TYPE_CHECKING:
-    from rheoclast.mechanics.criteria.any_of import AnyOf
+BETWEEN_WORDS = re.compile("(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
 
 
 class Criterion(ABC):
@@ -22,13 +27,22 @@ class Criterion(ABC):
 
     @property
     def name(self) -> str:
-        """What a failure by this criterion is called."""
-        return type(self).__name__.lower()
+        """What a failure by this criterion is called: its class in words, "neck stress" for ``NeckStress``."""
+        return BETWEEN_WORDS.sub(" ", type(self).__name__).lower()
 
     @property
     def parts(self) -> tuple[Criterion, ...]:
         """The criteria that this one is made of; itself if it is not a combination."""
         return (self,)
+
+    @property
+    def part_names(self) -> tuple[str, ...]:
+        """What a failure by each of `parts` is called; equal names are numbered, "sliding 1" and "sliding 2"."""
+        names = [part.name for part in self.parts]
+        counts = Counter(names)
+        return tuple(
+            name if counts[name] == 1 else f"{name} {names[: k + 1].count(name)}" for k, name in enumerate(names)
+        )
 
     @property
     @abstractmethod
@@ -41,8 +55,49 @@ class Criterion(ABC):
 
     def __or__(self, other: Criterion) -> AnyOf:
         """The criterion that is met where this one or the other is."""
-        from rheoclast.mechanics.criteria.any_of import AnyOf
+        return AnyOf(self, other) if isinstance(other, Criterion) else NotImplemented
 
-        if not isinstance(other, Criterion):
-            return NotImplemented
-        return AnyOf(*self.parts, *other.parts)
+
+@final
+@dataclass(frozen=True, init=False, repr=False)
+class AnyOf(Criterion):
+    """A contact fails by the first of several criteria that is met. ``Tension() | Sliding()`` makes the same.
+
+    Raises
+    ------
+    ValueError
+        If there is no criterion.
+    TypeError
+        If something is not a criterion.
+    """
+
+    criteria: tuple[Criterion, ...]
+
+    def __init__(self, *criteria: Criterion) -> None:
+        if not criteria:
+            raise ValueError("AnyOf: expected at least one criterion, got none; give for instance Tension()")
+        for criterion in criteria:
+            _checks.instance("AnyOf", criterion, Criterion)
+        _checks.set_fields(self, criteria=tuple(part for criterion in criteria for part in criterion.parts))
+
+    def __repr__(self) -> str:
+        return f"AnyOf({', '.join(map(repr, self.criteria))})"
+
+    @property
+    def name(self) -> str:
+        """The names of all."""
+        return " or ".join(self.part_names)
+
+    @property
+    def parts(self) -> tuple[Criterion, ...]:
+        """The criteria."""
+        return self.criteria
+
+    @property
+    def strengths(self) -> tuple[str, ...]:
+        """The strengths that any of them uses."""
+        return tuple(dict.fromkeys(strength for part in self.parts for strength in part.strengths))
+
+    def load_ratio(self, loads: ContactLoads, bonds: Bonds) -> FloatArray:
+        """The largest ratio (..., C)."""
+        return np.max([part.load_ratio(loads, bonds) for part in self.parts], axis=0)

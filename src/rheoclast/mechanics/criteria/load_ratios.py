@@ -8,8 +8,7 @@ from rheoclast import _checks
 from rheoclast._checks import FloatArray, IntArray
 from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.contact_loads import ContactLoads
-from rheoclast.mechanics.criteria.any_of import AnyOf
-from rheoclast.mechanics.criteria.criterion import Criterion
+from rheoclast.mechanics.criteria.criterion import AnyOf, Criterion
 from rheoclast.mechanics.criteria.rolling import Rolling
 from rheoclast.mechanics.criteria.sliding import Sliding
 from rheoclast.mechanics.criteria.tension import Tension
@@ -19,19 +18,32 @@ EVERY_LIMIT: Criterion = AnyOf(Tension(), Sliding(), Rolling(), Twisting())
 """Each load against its own strength, for the strengths that are finite: with JKR contacts tension alone."""
 
 
-def load_ratios(loads: ContactLoads, bonds: Bonds, criterion: Criterion = EVERY_LIMIT) -> FloatArray:
-    """Load over strength (..., C, K) for the K `Criterion.parts`. A contact fails where a ratio reaches one.
+def load_ratios(loads: ContactLoads, bonds: Bonds, *, criterion: Criterion = EVERY_LIMIT) -> FloatArray:
+    """Load over strength (..., C, K) of C contacts by the K `Criterion.parts`. A contact fails where it reaches one.
 
     Compression does not fail a contact: its ratio in tension is negative. Where a strength is infinite the ratio is
     zero, so a criterion without a limit is off.
+
+    Parameters
+    ----------
+    loads
+        Of the contacts, (..., C).
+    bonds
+        Strength of the contacts.
+    criterion
+        When a contact fails.
 
     Raises
     ------
     ValueError
         If the bonds have another number of contacts.
+    TypeError
+        If an argument is something else.
     """
-    _checks.instance("criterion", criterion, Criterion, "for instance Tension()")
-    bonds.strength(len(loads.normals))
+    _checks.instance("loads", loads, ContactLoads)
+    _checks.instance("bonds", bonds, Bonds)
+    _checks.instance("criterion", criterion, Criterion)
+    bonds.refuse_other_count(len(loads.normals))
     return np.stack([part.load_ratio(loads, bonds) for part in criterion.parts], axis=-1)
 
 

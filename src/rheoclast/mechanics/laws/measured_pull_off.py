@@ -25,18 +25,27 @@ class MeasuredPullOff(ContactLaw):
     force
         Pull-off force in N of two spheres of radius `radius`; contacts of other spheres scale with R*.
     stiffness
-        The law that gives the stiffness. Where it limits other loads too, these limits are changed in proportion.
+        The law, or the bonds, that give the stiffness. Where they limit other loads too, these limits change in
+        proportion to the pull-off force; where they have no pull-off force of their own, these limits stay.
     radius
         Radius in m of the two spheres of the measurement. Without it every contact gets the same force.
+
+    Raises
+    ------
+    ValueError
+        If force or radius is not positive.
+    TypeError
+        If the stiffness is neither a law nor bonds.
     """
 
     force: float
-    stiffness: ContactLaw
+    stiffness: ContactLaw | Bonds
     radius: float | None = None
 
     def __post_init__(self) -> None:
         _checks.positive("force", self.force)
-        _checks.instance("stiffness", self.stiffness, ContactLaw, "for instance JKR(material)")
+        if not isinstance(self.stiffness, Bonds):
+            _checks.instance("stiffness", self.stiffness, ContactLaw, "for instance JKR(material), or Bonds")
         if self.radius is not None:
             _checks.positive("radius", self.radius)
 
@@ -45,7 +54,8 @@ class MeasuredPullOff(ContactLaw):
         strength = np.full(len(aggregate.pairs), self.force)
         if self.radius is not None:
             strength *= 2 / (self.radius / aggregate.spheres.radii[aggregate.pairs]).sum(axis=1)
-        bonds = self.stiffness.bonds(aggregate)
-        share = strength / bonds.tensile_strength
+        bonds = self.stiffness if isinstance(self.stiffness, Bonds) else self.stiffness.bonds(aggregate)
+        own = bonds.strength(len(aggregate.pairs))[:, 0]
+        share = np.where(np.isfinite(own), strength / own, 1.0)
         others = {name: share * getattr(bonds, name) for name in PROPORTIONAL}
         return replace(bonds, tensile_strength=strength, **others)

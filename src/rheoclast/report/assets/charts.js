@@ -1,17 +1,18 @@
 // Charts as SVG: quiet axes, one colour, drawn anew at every width.
 
 const HEIGHT = 260;
-const MARGINS = { left: 62, right: 14, top: 10, bottom: 44 };
+const MARGINS = { left: 74, right: 14, top: 10, bottom: 44 };
 const BINS = 30;
 const MOST_BARS = 40;
 
-// A figure with a title. `draw(width)` returns its axes and the inside of an SVG, `mark(axes)` what is on top and changes.
+// A figure with a title and a note. `draw(width)` returns its axes and the inside of an SVG, `mark(axes)` what is on top
+// and changes.
 class Chart {
   constructor(parent, title, draw, mark = () => "") {
     Object.assign(this, { draw, mark });
     this.figure = parent.appendChild(document.createElement("figure"));
     this.figure.className = "chart";
-    this.figure.innerHTML = `<figcaption></figcaption><svg role="img"><g></g><g></g></svg>`;
+    this.figure.innerHTML = `<figcaption></figcaption><svg role="img"><g></g><g></g></svg><p class="note" hidden></p>`;
     this.layers = this.figure.querySelectorAll("g");
     this.title = title;
     new ResizeObserver(() => this.redraw()).observe(this.figure);
@@ -22,9 +23,15 @@ class Chart {
     this.figure.querySelector("svg").setAttribute("aria-label", text);
   }
 
+  set note(text) {
+    this.figure.querySelector(".note").textContent = text;
+    this.figure.querySelector(".note").hidden = !text;
+  }
+
   redraw() {
     const width = this.figure.clientWidth;
     if (!width) return;
+    this.figure.querySelector("svg").setAttribute("viewBox", `0 0 ${width} ${HEIGHT}`); // by which paper of other width takes it
     [this.axes, this.layers[0].innerHTML] = this.draw(width);
     this.remark();
   }
@@ -36,32 +43,37 @@ class Chart {
 
 // Where values lie in a chart of some width, and its axes with labels.
 class Axes {
-  constructor(width, [x, y], [xLabel, yLabel]) {
+  constructor(width, ranges, labels, [xLog, yLog] = [false, false]) {
     this.inner = { left: MARGINS.left, right: width - MARGINS.right, top: MARGINS.top, bottom: HEIGHT - MARGINS.bottom };
-    Object.assign(this, { xRange: x, yRange: y, xLabel, yLabel });
+    this.labels = labels;
+    [this.horizontal, this.vertical] = [xLog, yLog].map((isLog, k) =>
+      isLog ? new LogarithmicScale(ranges[k]) : new LinearScale(ranges[k], labels[k].includes("{power}")),
+    );
   }
 
   x(value) {
     const { left, right } = this.inner;
-    return left + ((right - left) * (value - this.xRange[0])) / (this.xRange[1] - this.xRange[0]);
+    return left + (right - left) * this.horizontal.share(value);
   }
 
   y(value) {
     const { top, bottom } = this.inner;
-    return bottom - ((bottom - top) * (value - this.yRange[0])) / (this.yRange[1] - this.yRange[0]);
+    return bottom - (bottom - top) * this.vertical.share(value);
   }
 
-  drawn({ whole = false } = {}) {
+  // With `whole` no fractions are marked along x, with `counts` along y.
+  drawn({ whole = false, counts = false } = {}) {
     const { left, right, top, bottom } = this.inner;
-    const xTicks = ticks(...this.xRange, Math.max(2, (right - left) / 80)).filter((value) => !whole || Number.isInteger(value));
-    const [divisor, power] = commonPower(this.yRange);
-    const rows = ticks(...this.yRange, 4).map((value) => `<path class="grid" d="M${left} ${this.y(value)}H${right}"/>
-      <text x="${left - 8}" y="${this.y(value) + 4}" text-anchor="end">${shown(value / divisor, 3)}</text>`);
+    const [xLabel, yLabel] = this.labels.map((label, k) => escaped(label.replace("{power}", [this.horizontal, this.vertical][k].power)));
+    const marked = (scale, number, isWhole) => scale.ticks(number).filter((value) => !isWhole || Number.isInteger(value));
+    const xTicks = marked(this.horizontal, Math.max(2, (right - left) / 80), whole);
+    const rows = marked(this.vertical, 4, counts).map((value) => `<path class="grid" d="M${left} ${this.y(value)}H${right}"/>
+      <text x="${left - 8}" y="${this.y(value) + 4}" text-anchor="end">${this.vertical.mark(value)}</text>`);
     const columns = xTicks.map((value) => `<path class="axis" d="M${this.x(value)} ${bottom}v5"/>
-      <text x="${this.x(value)}" y="${bottom + 19}" text-anchor="middle">${shown(value, 3)}</text>`);
+      <text x="${this.x(value)}" y="${bottom + 19}" text-anchor="middle">${this.horizontal.mark(value)}</text>`);
     return `${rows.join("")}${columns.join("")}<path class="axis" d="M${left} ${bottom}H${right}"/>
-      <text x="${(left + right) / 2}" y="${HEIGHT - 6}" text-anchor="middle">${escaped(this.xLabel)}</text>
-      <text transform="translate(13 ${(top + bottom) / 2}) rotate(-90)" text-anchor="middle">${escaped(this.yLabel.replace("{power}", power))}</text>`;
+      <text x="${(left + right) / 2}" y="${HEIGHT - 6}" text-anchor="middle">${xLabel}</text>
+      <text transform="translate(13 ${(top + bottom) / 2}) rotate(-90)" text-anchor="middle">${yLabel}</text>`;
   }
 }
 
@@ -76,14 +88,24 @@ function histogram(width, values, label) {
     const [x, y, end] = [axes.x((first + k) * step), axes.y(count), axes.x((first + k + 1) * step)];
     return `<rect class="bar" x="${x + 0.5}" y="${y}" width="${Math.max(0.5, end - x - 1)}" height="${axes.y(0) - y}"><title>${count} contacts</title></rect>`;
   });
-  return [axes, axes.drawn() + bars.join("")];
+  return [axes, axes.drawn({ counts: true }) + bars.join("")];
 }
 
-// Dots that choose a contact when clicked.
+// Dots that choose a contact when clicked; of those that cover each other, one.
 function scatter(width, [x, y], contacts, labels) {
-  const axes = new Axes(width, [padded([0, Math.max(...x)]), padded(spread(y))], labels);
-  const dots = x.map((value, k) => `<circle class="dot" data-contact="${contacts[k]}" cx="${axes.x(value)}" cy="${axes.y(y[k])}" r="3.2"><title>contact ${contacts[k]}: ${shown(y[k])}</title></circle>`);
-  return [axes, axes.drawn() + dots.join("")];
+  const axes = new Axes(width, [padded([0, spread(x)[1]]), padded(spread(y))], labels);
+  const dot = (k) => `<circle class="dot" data-contact="${contacts[k]}" cx="${axes.x(x[k])}" cy="${axes.y(y[k])}" r="3.2"><title>contact ${contacts[k]}: ${shown(y[k])}</title></circle>`;
+  return [axes, axes.drawn() + apart(axes, x, y).map(dot).join("")];
+}
+
+// Positions in a list of points, without those that lie in a cell of some pixels where there is one already.
+function apart(axes, x, y, cell = 2.5) {
+  const taken = new Map();
+  x.forEach((value, k) => {
+    const place = `${Math.round(axes.x(value) / cell)} ${Math.round(axes.y(y[k]) / cell)}`;
+    if (!taken.has(place)) taken.set(place, k);
+  });
+  return [...taken.values()];
 }
 
 function markPoint(axes, x, y) {
@@ -107,7 +129,7 @@ function sizes(width, spheres) {
   const axes = new Axes(width, [[0.5, largest.length + 0.5], padded([0, largest[0]])], ["fragment, largest first", "spheres"]);
   const half = Math.min(24, 0.35 * (axes.x(2) - axes.x(1)));
   const bars = largest.map((size, k) => `<rect class="bar" x="${axes.x(k + 1) - half}" y="${axes.y(size)}" width="${2 * half}" height="${axes.y(0) - axes.y(size)}"><title>${size} spheres</title></rect>`);
-  return [axes, axes.drawn({ whole: true }) + bars.join("")];
+  return [axes, axes.drawn({ whole: true, counts: true }) + bars.join("")];
 }
 
 function spread(values) {
@@ -115,15 +137,13 @@ function spread(values) {
   return low < high ? [low, high] : [Math.min(0, low), Math.max(0, high) || 1];
 }
 
-// A power of ten, also in words, that is taken out of numbers too long for an axis.
-function commonPower(range) {
-  const largest = Math.max(...range.map(Math.abs));
-  if (largest < 1e4 && largest >= 1e-2) return [1, ""];
-  const power = Math.floor(Math.log10(largest));
-  return [10 ** power, `10${raised(power)} `];
-}
-
 function padded([low, high]) {
   const room = 0.05 * (high - low || 1);
   return [low < 0 || low > room ? low - room : low, high + room];
+}
+
+// The same for values on a logarithmic scale.
+function paddedByFactor([low, high]) {
+  const room = (high / low) ** 0.05 * 1.02;
+  return [low / room, high * room];
 }

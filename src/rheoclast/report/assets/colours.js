@@ -1,6 +1,7 @@
 // Colours as red, green, blue from 0 to 1, and scales of them.
 
 const SEQUENCE = ["#0d0887", "#7e03a8", "#cc4778", "#f89540"]; // of failures, first to last: "plasma" without its palest end
+const PALE = rgb("#e3e3e3"); // of a contact without load, or that does not fail
 
 function rgb(hexadecimal) {
   return [1, 3, 5].map((at) => parseInt(hexadecimal.slice(at, at + 2), 16) / 255);

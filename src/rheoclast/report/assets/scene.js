@@ -2,6 +2,7 @@
 
 const THICKNESS = [0.1, 0.45]; // radius of a contact in smaller radii: of the thinnest spheres, and how it grows
 const APART = 0.9; // how far fragments part, in their distances from the centre
+const MANY = 2000; // spheres, between which contacts are too small to be seen
 
 class Scene {
   constructor(canvas, overlay, data) {
@@ -12,12 +13,13 @@ class Scene {
     this.normals = this.pairs.map(([i, j]) => unit(difference(this.centers, 3 * j, 3 * i)));
     this.thinnest = this.pairs.map(([i, j]) => Math.min(this.radii[i], this.radii[j]));
     this.around = neighbours(this.pairs, this.radii.length);
+    this.isPainted = this.radii.length > MANY;
     this.shifts = partings(this.centers, this.radii, this.fragment);
     this.state = { size: 1, parting: 0, chosen: null, colours: [], failed: new Set() };
-    this.renderer = renderer(canvas);
+    this.renderer = renderer(canvas, this.pairs.length);
     canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
     canvas.addEventListener("webglcontextrestored", () => {
-      this.renderer = renderer(canvas);
+      this.renderer = renderer(canvas, this.pairs.length);
       this.show({});
     });
     new ResizeObserver(() => this.resized()).observe(canvas);
@@ -37,6 +39,7 @@ class Scene {
 
   fit() {
     const [width, height] = this.extent;
+    if (!width) return; // not laid out yet; `resized` comes then
     this.camera.fit(this.moved, this.radii, [24, 92, width - 24, height - 84], width, height);
   }
 
@@ -57,7 +60,7 @@ class Scene {
 
   choose(contact) {
     this.state.chosen = contact;
-    this.draw();
+    if (this.moved) this.overlay.innerHTML = this.beside();
   }
 
   // Change what is shown: `size` of spheres, `parting` of fragments, `colours` of contacts, the set of `failed` ones, and
@@ -65,7 +68,7 @@ class Scene {
   show(changes) {
     Object.assign(this.state, changes);
     this.place();
-    this.renderer.load(this.sphereRows(), this.contactRows());
+    this.renderer.load(this.sphereRows(), this.contactRows(), this.isParted);
     this.draw();
   }
 
@@ -104,22 +107,37 @@ class Scene {
     ]);
   }
 
-  // Pale, with the colour of the fragment once the last contact has failed.
+  // Pale, with the colour of the fragment once the last contact has failed; of very many, that of its most loaded contact.
   sphereColours() {
     const { sphere } = this.theme();
-    if (!this.state.split) return this.radii.map(() => sphere);
-    const colours = this.fragment_colours.map(rgb);
-    return this.fragment.map((k) => mixed(colours[Math.min(k, colours.length - 1)], sphere, 0.15));
+    if (this.state.split) {
+      const colours = this.fragment_colours.map(rgb);
+      return this.fragment.map((k) => mixed(colours[Math.min(k, colours.length - 1)], sphere, 0.15));
+    }
+    if (!this.isPainted) return this.radii.map(() => sphere);
+    const colours = this.contactColours();
+    const boldness = colours.map((colour) => Math.hypot(...colour.map((value, k) => value - PALE[k])));
+    return this.around.map((all) => all.reduce((best, c) => (boldness[c] > boldness[best] ? c : best), all[0])).map((c) => colours[c]);
   }
 
-  contactRows() {
-    const { colours, failed } = this.state;
+  contactColours() {
     const { failed: ink } = this.theme();
-    return interleaved(2 * this.pairs.length, (k) => {
-      const c = Math.floor(k / 2);
-      const { points, tips } = this.halves[k % 2];
-      const [from, to] = [points, tips].map((list) => list.subarray(3 * c, 3 * c + 3));
-      return [...from, ...to, this.thickness(c), ...(failed.has(c) ? ink : colours[c])];
+    return this.state.colours.map((colour, c) => (this.state.failed.has(c) ? ink : colour));
+  }
+
+  get isParted() {
+    return this.state.parting > 0;
+  }
+
+  // From sphere to sphere; each contact in two halves once fragments are apart.
+  contactRows() {
+    const colours = this.contactColours();
+    const [first, second] = this.halves;
+    const ends = this.isParted ? this.halves.map(({ points, tips }) => [points, tips]) : [[first.tips, second.tips]];
+    return interleaved(ends.length * this.pairs.length, (k) => {
+      const c = Math.floor(k / ends.length);
+      const [from, to] = ends[k % ends.length].map((list) => list.subarray(3 * c, 3 * c + 3));
+      return [...from, ...to, this.thickness(c), ...colours[c]];
     });
   }
 
@@ -127,13 +145,28 @@ class Scene {
     return this.printing ? { paper: [1, 1, 1], sphere: [0.8, 0.82, 0.84], failed: [0.1, 0.1, 0.1] } : theme();
   }
 
+  // At most once per picture of the screen, however often it is asked for.
   draw() {
+    this.waiting ??= requestAnimationFrame(() => this.render());
+  }
+
+  render() {
+    cancelAnimationFrame(this.waiting);
+    this.waiting = undefined;
     const [width, height] = this.extent;
     if (!this.moved || !width) return;
     const ratio = Math.max(2, window.devicePixelRatio);
     const fog = (0.5 * this.reach) / (this.reach + 8);
+    this.overlay.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.renderer.draw(this.camera, [width, height], ratio, { reach: this.reach, fog, paper: this.theme().paper });
-    this.overlay.innerHTML = this.scaleBar(height) + this.axesAndFlow(width, height) + this.ring(width, height);
+    this.overlay.innerHTML = this.beside();
+  }
+
+  // What stands beside the spheres and around the chosen contact.
+  beside() {
+    const [width, height] = this.extent;
+    if (!width) return "";
+    return this.scaleBar(height) + this.axesAndFlow(width, height) + this.ring(width, height);
   }
 
   // The contact under a pixel: one that is hit, or the nearest one of the sphere that is.
@@ -222,9 +255,9 @@ class Scene {
   }
 }
 
-function renderer(canvas) {
+function renderer(canvas, contacts) {
   try {
-    return new WebGLRenderer(canvas);
+    return new WebGLRenderer(canvas, contacts);
   } catch {
     return new CanvasRenderer(canvas);
   }

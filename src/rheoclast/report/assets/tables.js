@@ -1,6 +1,7 @@
 // A table that sorts by any column and shows some hundreds of rows at a time.
 
 const ROWS = 300;
+const LONG = 40; // letters that a line of a cell may have
 
 class SortedTable {
   constructor(parent, { title, columns, rows }, choose) {
@@ -10,7 +11,7 @@ class SortedTable {
     this.section.className = "table";
     this.section.innerHTML = `<h2>${escaped(title)}</h2>
       <div class="scroll" tabindex="0" role="region" aria-label="${escaped(title)}"><table>
-      <thead><tr>${columns.map(heading).join("")}</tr></thead><tbody></tbody></table></div>
+      <thead><tr>${columns.map((column) => heading(column, rows[column.key])).join("")}</tr></thead><tbody></tbody></table></div>
       <div class="more"><span></span><button type="button">Show ${ROWS} more</button></div>`;
     this.body = this.section.querySelector("tbody");
     this.section.querySelector("thead").addEventListener("click", (event) => this.sortAt(event.target.closest("th")));
@@ -27,7 +28,7 @@ class SortedTable {
   sort(key, direction) {
     const values = this.rows[key];
     const sign = direction === "ascending" ? 1 : -1;
-    this.order.sort((a, b) => sign * compared(values[a], values[b]) || a - b);
+    this.order.sort((a, b) => compared(values[a], values[b], sign) || a - b);
     for (const head of this.section.querySelectorAll("th")) {
       if (head.dataset.key === key) head.setAttribute("aria-sort", direction);
       else head.removeAttribute("aria-sort");
@@ -60,18 +61,24 @@ class SortedTable {
   row(k) {
     const cells = this.columns.map(({ key, error, whole }) => {
       const cell = this.rows[key][k];
-      const value = whole || typeof cell === "string" ? String(cell) : shown(cell);
+      const value = cell === null ? "–" : whole || typeof cell === "string" ? String(cell) : shown(cell);
       if (key === "contact") return `<td><button type="button" aria-label="Show contact ${value}">${value}</button></td>`;
-      return `<td>${escaped(value)}${error ? ` <small>± ${shown(this.rows[error][k], 2)}</small>` : ""}</td>`;
+      return `<td class="${kindOf(cell)}">${escaped(value)}${error ? ` <small>± ${shown(this.rows[error][k], 2)}</small>` : ""}</td>`;
     });
     return `<tr data-row="${k}" class="${this.isChosen(k) ? "chosen" : ""}">${cells.join("")}</tr>`;
   }
 }
 
-function heading({ key, label, unit }) {
-  return `<th scope="col" data-key="${key}"><button type="button">${escaped(label)}<span>${escaped(unit) || "&nbsp;"}</span></button></th>`;
+function heading({ key, label, unit }, cells) {
+  return `<th scope="col"${typeof cells.find((cell) => cell !== null) === "string" ? ' class="word"' : ""} data-key="${key}"><button type="button">${escaped(label)}<span>${escaped(unit) || "&nbsp;"}</span></button></th>`;
 }
 
-function compared(a, b) {
-  return typeof a === "string" ? a.localeCompare(b) : a - b;
+function kindOf(cell) {
+  return typeof cell !== "string" ? "" : cell.length > LONG ? "word long" : "word";
+}
+
+// What there is none of comes last.
+function compared(a, b, sign) {
+  if (a === null || b === null) return Number(a === null) - Number(b === null);
+  return sign * (typeof a === "string" ? a.localeCompare(b) : a - b);
 }

@@ -1,13 +1,15 @@
 // Spheres and cylinders by WebGL 2. A sphere is a square that faces the viewer, each of whose pixels finds its own depth
 // and normal, so that spheres are round at any size; a cylinder is a prism. All are drawn as instances, in two calls.
 
-const SIDES = 20;
+const SIDES = [20, 8]; // of the prism, and where there are many
+const LEAST = 0.8; // pixels that the radius of a sphere has: smaller ones would vanish between pixels
+const MANY_CYLINDERS = 3000;
 
 const COMMON = `#version 300 es
 precision highp float;
 uniform mat3 rotation;
 uniform vec2 pan, scale;
-uniform float reach, fog;
+uniform float reach, fog, least;
 uniform vec3 paper;
 `;
 const SHADING = `
@@ -31,8 +33,8 @@ void main() {
   vec3 seen = rotation * center;
   at = corner * 1.02;
   paint = colour;
-  size = vec2(radius, seen.z);
-  gl_Position = vec4((seen.xy + at * radius - pan) * scale, 0.0, 1.0);
+  size = vec2(max(radius, least), seen.z);
+  gl_Position = vec4((seen.xy + at * size.x - pan) * scale, 0.0, 1.0);
 }`;
 const SPHERE_FRAGMENT = `${COMMON}${SHADING}
 in vec2 at;
@@ -77,19 +79,21 @@ out vec4 pixel;
 void main() { pixel = vec4(lit(paint, normalize(normal), height), 1.0); gl_FragDepth = depth(height); }`;
 
 class WebGLRenderer {
-  constructor(canvas) {
+  constructor(canvas, count) {
     const gl = canvas.getContext("webgl2", { antialias: false, preserveDrawingBuffer: true });
     if (!gl) throw new Error("this browser has no WebGL 2");
     this.gl = gl;
     this.spheres = new Instances(gl, [SPHERE_VERTEX, SPHERE_FRAGMENT], square(), [2], [3, 1, 3], 1);
-    this.cylinders = new Instances(gl, [CYLINDER_VERTEX, CYLINDER_FRAGMENT], prism(), [3, 1], [3, 3, 1, 3], 1, [0, 5]);
+    const corners = prism(SIDES[Number(count > MANY_CYLINDERS)]);
+    this.cylinders = new Instances(gl, [CYLINDER_VERTEX, CYLINDER_FRAGMENT], corners, [3, 1], [3, 3, 1, 3], 1, [0, 5]);
     gl.enable(gl.DEPTH_TEST);
   }
 
-  // Rows of centre, radius, colour; and of start, end, radius, colour.
-  load(spheres, cylinders) {
+  // Rows of centre, radius, colour; and of start, end, radius, colour; the ends of cylinders may be hidden in spheres.
+  load(spheres, cylinders, endsInSight) {
     this.spheres.fill(spheres);
     this.cylinders.fill(cylinders);
+    this.cylinders.shown = endsInSight ? 1 : 0.5;
   }
 
   draw(camera, [width, height], ratio, { reach, fog, paper }) {
@@ -101,8 +105,9 @@ class WebGLRenderer {
     gl.clearColor(...paper, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     const scale = [(2 * camera.zoom) / width, (2 * camera.zoom) / height];
+    const least = LEAST / (ratio * camera.zoom);
     for (const instances of [this.spheres, this.cylinders]) {
-      instances.draw({ rotation: camera.rotation, pan: camera.pan, scale, reach, fog, paper });
+      instances.draw({ rotation: camera.rotation, pan: camera.pan, scale, reach, fog, least, paper });
     }
   }
 }
@@ -113,6 +118,7 @@ class Instances {
     this.gl = gl;
     this.program = program(gl, shaders);
     this.corners = shape.length / sum(corner);
+    this.shown = 1; // share of the corners that is drawn
     this.stride = sum(instance);
     this.count = 0;
     this.array = gl.createVertexArray();
@@ -142,7 +148,7 @@ class Instances {
     this.count = rows.length / this.stride;
   }
 
-  draw({ rotation, pan, scale, reach, fog, paper }) {
+  draw({ rotation, pan, scale, reach, fog, least, paper }) {
     const { gl } = this;
     const at = (name) => gl.getUniformLocation(this.program, name);
     gl.useProgram(this.program);
@@ -151,9 +157,10 @@ class Instances {
     gl.uniform2fv(at("scale"), scale);
     gl.uniform1f(at("reach"), reach);
     gl.uniform1f(at("fog"), fog);
+    gl.uniform1f(at("least"), least);
     gl.uniform3fv(at("paper"), paper);
     gl.bindVertexArray(this.array);
-    gl.drawArraysInstanced(gl.TRIANGLES, 0, this.corners, this.count);
+    gl.drawArraysInstanced(gl.TRIANGLES, 0, this.shown * this.corners, this.count);
   }
 }
 
@@ -174,18 +181,19 @@ function square() {
   return new Float32Array([-1, -1, 1, -1, 1, 1, -1, -1, 1, 1, -1, 1]);
 }
 
-// Side and lids of a prism, a row (cosine, sine, along, lid) per corner of its triangles.
-function prism() {
-  const rows = [];
-  const circle = (k) => [Math.cos((2 * Math.PI * k) / SIDES), Math.sin((2 * Math.PI * k) / SIDES)];
-  for (let k = 0; k < SIDES; k++) {
+// First the sides and then, as many corners again, the lids of a prism; a row (cosine, sine, along, lid) per corner of its
+// triangles.
+function prism(sides) {
+  const [walls, lids] = [[], []];
+  const circle = (k) => [Math.cos((2 * Math.PI * k) / sides), Math.sin((2 * Math.PI * k) / sides)];
+  for (let k = 0; k < sides; k++) {
     const [a, b] = [circle(k), circle(k + 1)];
-    for (const [point, along] of [[a, 0], [b, 0], [b, 1], [a, 0], [b, 1], [a, 1]]) rows.push(...point, along, 0);
+    for (const [point, along] of [[a, 0], [b, 0], [b, 1], [a, 0], [b, 1], [a, 1]]) walls.push(...point, along, 0);
     for (const along of [0, 1]) {
-      for (const point of [[0, 0], a, b]) rows.push(...point, along, 2 * along - 1);
+      for (const point of [[0, 0], a, b]) lids.push(...point, along, 2 * along - 1);
     }
   }
-  return new Float32Array(rows);
+  return new Float32Array([...walls, ...lids]);
 }
 
 function sum(values) {

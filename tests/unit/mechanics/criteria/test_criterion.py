@@ -16,7 +16,7 @@ import rheoclast
 import rheoclast as rc
 from rheoclast.mechanics import criteria
 
-from .cases import random_bonds, random_loads, times
+from .cases import loads, random_bonds, random_loads, times
 
 STRENGTHS = ("tensile_strength", "shear_strength", "bending_strength", "twisting_strength")
 CRITERIA = {
@@ -155,6 +155,36 @@ def test_name_is_what_a_failure_is_called(criterion, name):
     assert criterion.name == name
 
 
+class Inherited(rc.Criterion):
+    """As `Tension`, under the name of a class of its own."""
+
+    strengths = ("tensile_strength",)
+
+    def load_ratio(self, loads, bonds):
+        return loads.tension / bonds.tensile_strength
+
+
+class NeckStress(Inherited):
+    pass
+
+
+class JKRPullOff(Inherited):
+    pass
+
+
+@pytest.mark.parametrize(("kind", "name"), [(NeckStress, "neck stress"), (JKRPullOff, "jkr pull off")])
+def test_name_of_a_class_of_several_words(kind, name):
+    assert kind().name == name
+    assert (kind() | rc.Tension()).name == f"{name} or tension"
+
+
+def test_parts_of_equal_name_are_numbered():
+    criterion = rc.Sliding(0.1) | rc.Tension() | rc.Sliding(0.5) | rc.Rolling() | rc.Sliding()
+    assert criterion.part_names == ("sliding 1", "tension", "sliding 2", "rolling", "sliding 3")
+    assert criterion.name == "sliding 1 or tension or sliding 2 or rolling or sliding 3"
+    assert rc.Sliding(0.5).part_names == ("sliding",)
+
+
 def test_either_of_two():
     either = rc.Tension() | rc.Sliding(0.2)
     assert either == rc.AnyOf(rc.Tension(), rc.Sliding(0.2))
@@ -165,3 +195,48 @@ def test_either_of_two():
 @pytest.mark.parametrize("criterion", [rc.Tension(), rc.Sliding(), rc.Rolling(), rc.Twisting(), rc.Combined()])
 def test_a_single_criterion_is_its_only_part(criterion):
     assert criterion.parts == (criterion,)
+
+
+def test_largest_ratio_of_all():
+    """Ratios 1.5 and ½, then −1.5 and ½."""
+    carried = loads([3.0, -3.0], 2.0, 9.0, 9.0)
+    bonds = rc.Bonds(1, 1, 1, 1, tensile_strength=2.0, shear_strength=4.0)
+    np.testing.assert_allclose(rc.AnyOf(rc.Tension(), rc.Sliding()).load_ratio(carried, bonds), [1.5, 0.5])
+
+
+def test_order_and_repetition_do_not_matter():
+    carried, bonds = random_loads(1), random_bonds(1)
+    expected = rc.AnyOf(rc.Tension(), rc.Rolling()).load_ratio(carried, bonds)
+    for other in (rc.AnyOf(rc.Rolling(), rc.Tension()), rc.AnyOf(rc.Tension(), rc.Rolling(), rc.Tension())):
+        np.testing.assert_array_equal(other.load_ratio(carried, bonds), expected)
+
+
+def test_alternatives_of_alternatives_are_one_list():
+    """With the strengths of all, each named once."""
+    nested = rc.AnyOf(rc.AnyOf(rc.Rolling(), rc.Combined()), rc.Sliding(0.1))
+    assert nested.parts == nested.criteria == (rc.Rolling(), rc.Combined(), rc.Sliding(0.1))
+    assert nested.strengths == ("bending_strength", "tensile_strength", "shear_strength", "twisting_strength")
+    assert nested.name == "rolling or combined or sliding"
+
+
+def test_one_alternative_is_that_criterion():
+    carried, bonds = random_loads(2), random_bonds(2)
+    np.testing.assert_array_equal(
+        rc.AnyOf(rc.Twisting()).load_ratio(carried, bonds), rc.Twisting().load_ratio(carried, bonds)
+    )
+
+
+def test_refused_alternatives():
+    with pytest.raises(ValueError, match=r"^AnyOf: expected at least one criterion, got none; give for instance Ten"):
+        rc.AnyOf()
+    with pytest.raises(TypeError, match=r"^AnyOf: expected Criterion, got the class Tension; for instance Tension\(\)"):
+        rc.AnyOf(rc.Tension)
+    with pytest.raises(TypeError, match=r"^AnyOf: expected Criterion, got str; for instance Tension\(\)$"):
+        rc.AnyOf(rc.Tension(), "sliding")
+
+
+def test_shown_as_it_is_written():
+    """As in the signatures of functions, and to be pasted back."""
+    criterion = rc.AnyOf(rc.Tension(), rc.Sliding(0.5))
+    assert repr(criterion) == "AnyOf(Tension(), Sliding(friction=0.5))"
+    assert eval(repr(criterion), vars(rc)) == criterion

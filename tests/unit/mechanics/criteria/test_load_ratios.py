@@ -19,7 +19,7 @@ def test_every_limit_by_hand():
 def test_one_column_for_each_part_in_its_order():
     carried, bonds = random_loads(1, (2, 20)), random_bonds(1)
     criterion = rc.Combined(1) | rc.Tension() | rc.Sliding(0.3)
-    ratios = rc.load_ratios(carried, bonds, criterion)
+    ratios = rc.load_ratios(carried, bonds, criterion=criterion)
     assert ratios.shape == (2, 20, 3)
     for column, part in enumerate(criterion.parts):
         np.testing.assert_array_equal(ratios[..., column], part.load_ratio(carried, bonds))
@@ -27,7 +27,7 @@ def test_one_column_for_each_part_in_its_order():
 
 
 def test_one_column_for_a_single_criterion():
-    assert rc.load_ratios(random_loads(1), random_bonds(1), rc.Rolling()).shape == (20, 1)
+    assert rc.load_ratios(random_loads(1), random_bonds(1), criterion=rc.Rolling()).shape == (20, 1)
 
 
 def test_refused_bonds_and_criteria():
@@ -37,7 +37,7 @@ def test_refused_bonds_and_criteria():
         rc.load_ratios(random_loads(1), random_bonds(1, 3))
     for wrong, name in ((rc.Tension, "the class Tension"), ("tension", "str"), (None, "NoneType")):
         with pytest.raises(TypeError, match=rf"^criterion: expected Criterion, got {name}; for instance Tension\(\)$"):
-            rc.load_ratios(random_loads(1), random_bonds(1), wrong)
+            rc.load_ratios(random_loads(1), random_bonds(1), criterion=wrong)
 
 
 def test_parts_that_have_a_limit():

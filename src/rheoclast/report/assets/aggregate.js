@@ -20,7 +20,7 @@ function colours() {
 }
 
 function orderColour(contact) {
-  if (!order.has(contact)) return rgb("#e3e3e3");
+  if (!order.has(contact)) return PALE;
   return between(SEQUENCE.map(rgb), order.get(contact) / Math.max(1, order.size - 1));
 }
 
@@ -34,6 +34,7 @@ function drawLegend() {
   }
   if (state.step && load !== ORDER) keys.push(`<span><i style="background: var(--failed)"></i>failed</span>`);
   if (isSplit()) keys.push(...fragmentKeys());
+  else if (scene.isPainted) keys.push("<span>each sphere as its most loaded contact</span>");
   element("legend").innerHTML += `<div class="keys">${keys.join("")}</div>`;
 }
 
@@ -114,7 +115,7 @@ function goTo(step) {
 // In the order of failure only those that have failed are coloured.
 function crackColours() {
   if (state.load !== ORDER || !state.step) return colours();
-  return pairs.map((_, c) => ((order.get(c) ?? Infinity) < state.step ? orderColour(c) : rgb("#e3e3e3")));
+  return pairs.map((_, c) => ((order.get(c) ?? Infinity) < state.step ? orderColour(c) : PALE));
 }
 
 function stepText() {
@@ -231,20 +232,25 @@ function chartsOf(parent) {
   const dots = (width) =>
     scatter(width, [distances, values()], contacts.contact, ["distance from the centre / Rg", withUnit(load())]);
   const chosen = (axes) => markPoint(axes, distances[state.chosen], values()[state.chosen]);
-  const made = [
-    new Chart(parent, "", (width) => histogram(width, values(), withUnit(load()))),
-    new Chart(parent, "", dots, chosen),
-  ];
+  const made = [];
+  if (pairs.length > 1) {
+    made.push(new Chart(parent, "", (width) => histogram(width, values(), withUnit(load()))));
+    made.push(new Chart(parent, "", dots, chosen));
+  }
   if (order.size > 1) {
     const now = (axes) => (state.step ? markLine(axes, state.step) : "");
     made.push(new Chart(parent, "Rates of failure, in sequence", (width) => sequence(width, failures, "1/s"), now));
   }
-  const pieces = data.tables.fragments;
-  if (pieces?.rows.spheres.length > 1) made.push(new Chart(parent, `${pieces.title}: sizes`, (width) => sizes(width, pieces.rows.spheres)));
+  const parts = data.tables.fragments;
+  const number = parts?.rows.spheres.length ?? 0;
+  const which = number > MOST_BARS ? `the ${MOST_BARS} largest of ${number}` : "sizes";
+  if (number > 1) made.push(new Chart(parent, `${parts.title}: ${which}`, (width) => sizes(width, parts.rows.spheres)));
+  if (data.tables.pieces) made.push(cascadeChart(parent, data.tables.pieces.rows));
   return made;
 }
 
 function retitle() {
+  if (pairs.length < 2) return;
   const { label } = state.load === ORDER ? data.loads[0] : state.load;
   charts[0].title = `${label}: distribution over contacts`;
   charts[1].title = `${label} against distance from the centre`;
@@ -264,7 +270,7 @@ function setUpControls() {
   const options = [...data.loads, ...(order.size > 1 ? [ORDER] : [])];
   element("load").innerHTML = options.map((load) => `<option value="${load.key}">${escaped(load.unit ? withUnit(load) : load.label)}</option>`).join("");
   element("load").addEventListener("change", onLoad);
-  element("size").value = pairs.length > 1.6 * data.scene.radii.length ? 0.5 : 0.8;
+  element("size").value = scene.isPainted ? 1 : pairs.length > 1.6 * data.scene.radii.length ? 0.5 : 0.8;
   element("size").addEventListener("input", () => scene.show({ size: Number(element("size").value) }));
   element("number").max = pairs.length - 1;
   element("number").addEventListener("change", () => {
@@ -298,7 +304,7 @@ function setUpScene() {
   element("reset").addEventListener("click", () => scene.reset());
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => scene.show({}));
   for (const [name, printing] of [["beforeprint", true], ["afterprint", false]]) {
-    window.addEventListener(name, () => { scene.printing = printing; scene.show({}); });
+    window.addEventListener(name, () => { scene.printing = printing; scene.show({}); scene.render(); });
   }
 }
 
