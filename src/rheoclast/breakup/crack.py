@@ -32,7 +32,7 @@ from rheoclast.particles.morphology import depth, radial_position
 
 Rule = Literal["weakest", "overloaded"]
 ROUNDING = 1e-9  # of load ratios: what balance is held to
-NEGLIGIBLE = 1e-8  # of the largest load ratio that the contacts left had at first, compression included
+NEGLIGIBLE = 1e-8  # of the largest load ratio that the contacts left had at first in any flow as strong
 ORDERS_COMPARED = 3
 
 
@@ -119,7 +119,9 @@ def break_up_each(
     limit = up_to if up_to == np.inf else _checks.positive("up_to", up_to)
     intact = loosenable(aggregate, bonds)
     places = np.stack([place(aggregate, aggregate.contact_points) for place in (radial_position, depth)], axis=1)
-    setting = _Setting(aggregate, bonds, criterion, rule, limit, response.order, intact, places)
+    unit_loads = intact.loaded(response.strain_loads).loads
+    in_unit_strain = np.abs(load_ratios(unit_loads, bonds, criterion=criterion)).max(axis=(0, 2))
+    setting = _Setting(aggregate, bonds, criterion, rule, limit, response.order, intact, in_unit_strain, places)
     return (_event(setting, response, flow) for flow in flows)
 
 
@@ -134,6 +136,7 @@ class _Setting:
     up_to: float
     order: int | None
     intact: LoosenableAggregate
+    in_unit_strain: FloatArray
     places: FloatArray
 
     def ratios(self, state: LoosenedAggregate) -> FloatArray:
@@ -148,9 +151,9 @@ def _event(setting: _Setting, response: RigidResponse, flow: LinearFlow) -> Brea
     state = setting.intact.loaded(SphereLoads.stacked(orders))
     failures: list[Failure] = []
     ratios = setting.ratios(state)
-    reached, intact = 0.0, np.abs(ratios[-1]).max(axis=1)
+    reached, usual = 0.0, np.linalg.norm(flow.strain_rate) * setting.in_unit_strain
     while True:
-        largest, nothing = ratios[-1].max(axis=1), NEGLIGIBLE * np.delete(intact, state.lost).max()
+        largest, nothing = ratios[-1].max(axis=1), NEGLIGIBLE * np.delete(usual, state.lost).max()
         if largest.max() <= nothing or flow.rate / largest.max() > setting.up_to:
             return _breakup(setting.aggregate, failures, np.zeros(len(setting.aggregate), np.intp))
         reached = max(reached, flow.rate / float(largest.max()))

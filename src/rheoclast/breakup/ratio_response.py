@@ -18,6 +18,7 @@ from rheoclast.mechanics.criteria.criterion import AnyOf, Criterion
 from rheoclast.mechanics.criteria.load_ratios import limited_parts, load_ratios, refuse_without_strength
 from rheoclast.mechanics.criteria.tension import Tension
 
+ROUNDING = 1e-10  # of what a contact bears in other flows: loads that vanish by symmetry are as large
 RATIOS_AT_ONCE = 2**18  # contacts times flows: 2 MB of ratios, which stay in the cache; 60 MB of loads
 
 
@@ -52,6 +53,12 @@ class RatioResponse:
     def criteria(self) -> tuple[str, ...]:
         """Names of all the criterion's parts, those that do not count among them."""
         return self.criterion.part_names
+
+    @cached_property
+    def rounding(self) -> float:
+        """Load ratio per strain rate that is rounding: far below what any contact bears in a unit strain, s."""
+        unit_strains = np.concatenate([np.eye(5), -np.eye(5)])
+        return ROUNDING * float(np.abs(self._ratios(unit_strains)).max(initial=0.0))
 
     def largest(self, components: FloatArray) -> tuple[FloatArray, IntArray, IntArray]:
         """Largest load ratio (n,), its contact (n,) and its position in `criteria` (n,).

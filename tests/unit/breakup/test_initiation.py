@@ -92,6 +92,21 @@ def test_a_turned_rotation_breaks_nothing():
         assert first.flow is flow
 
 
+@pytest.mark.parametrize("axis", [[1.0, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 2]])
+def test_a_doublet_that_symmetry_spares_is_not_broken(axis):
+    """n·E·n vanishes for these axes in simple shear: what tension there is, is rounding."""
+    direction = np.array(axis) / np.linalg.norm(axis)
+    spheres = rc.Spheres(np.array([-direction, direction]) * 1e-6, 1e-6)
+    response = rc.rigid_response(spheres, rc.StokesianDynamics(order=3), 1e-3)
+    doublet = rc.Aggregate.touching(spheres)
+    bonds = rc.jkr_bonds(doublet, rc.MATERIALS["polystyrene"])
+    table = rc.contact_response(doublet, response, bonds)
+    assert rc.initiation(table, bonds, rc.simple_shear(1.0)).contact is None
+    assert rc.break_up(doublet, response, bonds, rc.simple_shear(1.0)).outcome == "whole"
+    slightly = rc.initiation(table, bonds, rc.simple_shear(1.0).rotated(Rotation.from_rotvec([1e-3, 2e-3, 3e-3])))
+    assert (slightly.contact is not None) == (table.loads(slightly.flow).tension[0] > 0)
+
+
 def test_a_rate_of_zero_is_refused_for_a_strain():
     with pytest.raises(ValueError, match=r"^rate: expected a positive number for a flow of magnitude 1, got 0$"):
         rc.LinearFlow([[0, 1, 0], [0, 0, 0], [0, 0, 0]], rate=0)
