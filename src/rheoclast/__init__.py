@@ -58,7 +58,7 @@ from rheoclast.mechanics.criteria.load_ratios import EVERY_LIMIT, load_ratios
 
 from rheoclast.breakup.contact_response import ContactResponse, contact_response
 from rheoclast.breakup.initiation import Initiation, Initiations, initiation, initiations, worst_initiation
-from rheoclast.breakup.truncation import TruncationError, rate_error, truncation_error
+from rheoclast.breakup.truncation import LoadErrors, rate_error, truncation_error
 from rheoclast.breakup.event import Breakup, Failure
 from rheoclast.breakup.crack import break_up, break_up_each
 from rheoclast.breakup.load_history import Exceedances, FirstFailure, LargestLoad, LoadHistory, load_history
@@ -169,7 +169,7 @@ __all__ = [
     "initiation",
     "initiations",
     "worst_initiation",
-    "TruncationError",
+    "LoadErrors",
     "rate_error",
     "truncation_error",
     "Breakup",

