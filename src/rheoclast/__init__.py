@@ -210,3 +210,8 @@ __all__ = [
     "GeometryWarning",
     "UnitWarning",
 ]
+
+
+def __dir__() -> list[str]:
+    """What the package offers, without the modules in which it stands."""
+    return sorted(__all__)
