@@ -30,6 +30,7 @@ from rheoclast.view.quantities import quoted
 from rheoclast.view.rendering import Collars, Rendering, render
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 SMALLEST_SIZE = (4.5, 2.5)  # inches
@@ -112,20 +113,18 @@ def draw(
     figure = labels.titled_figure(layout, title)
     picture = image_axes(figure, layout.picture_box, rendering.image)
     if pushes is not None:
-        reach = max(ARROW * layout.scale * aggregate.spheres.mean_radius, SMALLEST_ARROW * dots_per_inch / 72)
+        longest = max(ARROW * layout.scale * aggregate.spheres.mean_radius, SMALLEST_ARROW * dots_per_inch / 72)
         named = None if unit is None else "N"
-        labels.draw_forces(picture, pixels(aggregate.spheres.centers), pushes @ axes.T, reach, named)
+        labels.draw_forces(picture, pixels(aggregate.spheres.centers), pushes @ axes.T, longest, named)
+    if critical is not None:
+        text = "critical contact" if values is None else f"critical contact: {quoted(values[critical], unit)}"
+        _mark(picture, rendering, critical, points, RING_RADIUS * layout.scale * _reaches(aggregate)[critical], text)
     labels.draw_scale_bar(figure, layout.scale_bar_box, layout.scale, length_unit)
     if values is not None:
         labels.draw_colour_bar(figure, layout.colour_bar_box, scale, quantity, unit)
     labels.draw_triad(figure, layout.footer_square(0 if flow is None else 1), axes)
     if flow is not None:
         labels.draw_flow(figure, layout.footer_square(0), axes, flow.strain_rate)
-    if critical is not None:
-        text = "critical contact" if values is None else f"critical contact: {quoted(values[critical], unit)}"
-        ring = RING_RADIUS * layout.scale * float(aggregate.spheres.radii[aggregate.pairs[critical]].min())
-        visible = bool((rendering.contact == critical).any())
-        labels.mark_contact(picture, rendering.image, points[critical], ring, text, visible)
     return figure
 
 
@@ -178,6 +177,17 @@ def _rendered(
     aggregate: Aggregate, layout: Layout, centers: FloatArray, points: FloatArray, colours: FloatArray
 ) -> Rendering:
     """The image, from centres (N, 3) and contact points (C, 3) in its pixels."""
-    radii = aggregate.spheres.radii * layout.scale
-    collars = Collars.around(aggregate.pairs, points, radii[aggregate.pairs].min(axis=1), COLLAR_REACH, colours)
-    return render(centers, radii, collars, *layout.pixels)
+    reaches = layout.scale * _reaches(aggregate)
+    collars = Collars.around(aggregate.pairs, points, reaches, COLLAR_REACH, colours)
+    return render(centers, layout.scale * aggregate.spheres.radii, collars, *layout.pixels)
+
+
+def _reaches(aggregate: Aggregate) -> FloatArray:
+    """Radius (C,) of the smaller sphere of every contact."""
+    return aggregate.spheres.radii[aggregate.pairs].min(axis=1)
+
+
+def _mark(axes: Axes, rendering: Rendering, contact: int, points: FloatArray, ring: float, text: str) -> None:
+    """Ring a contact, one of those at points (C, 3), and say what it is."""
+    visible = bool((rendering.contact == contact).any())
+    labels.mark_contact(axes, rendering.image, points[contact], ring, text, visible)
