@@ -14,7 +14,7 @@ from rheoclast._checks import FloatArray, IntArray
 from rheoclast._threads import one_blas_thread
 
 THREADED = 1500  # unknowns of a front from which a second thread pays
-STRIP = 128
+STRIP = 128  # columns of a triangle that are added at once, with the little above its diagonal
 PANEL = 768  # OpenBLAS gains nothing from threads in a Cholesky this small, and crashes in one of 16 000 unknowns
 
 

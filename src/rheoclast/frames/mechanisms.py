@@ -16,7 +16,7 @@ from rheoclast.graphs import connected_parts
 FREE = 1e-13  # stiffness against a motion, over the largest of a node, that counts as none: its rounding
 SHIFT = 1e-9  # of that stiffness: far above rounding, and small enough to tell the softest motions apart
 MOVES = 1e-4  # of the largest motion between two sides; the others' rounding is 1e-16 over the gap of eigenvalues
-DENSE = 600  # unknowns up to which it is quickest to compute all motions
+DENSE = 600  # unknowns up to which all motions are found, within some hundredths of a second
 MOST_MOTIONS = 24  # computed in a large frame: those of eight nodes that turn about one point each
 
 

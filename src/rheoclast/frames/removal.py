@@ -77,7 +77,8 @@ class RemovableFrame:
             If the joints do not balance the loads because the stiffnesses differ by too many decades.
         """
         cases = _checks.real_array("loads", loads, (len(self.springs.nodes), 6, "K"))
-        state = _solved(self, self.factorized, cases.reshape(-1, cases.shape[2]), np.empty(0, dtype=np.intp))
+        nothing = _checks.frozen(np.empty(0, dtype=np.intp))
+        state = _solved(self, self.factorized, cases.reshape(-1, cases.shape[2]), nothing)
         _refuse_resultant(state)
         return state
 

@@ -146,7 +146,8 @@ class SpringFrame:
             lacking = self.lacking(scaled, loads)[6:]
             left = np.abs(lacking).max(axis=0) / size
             worst = float(left.max(initial=0.0))
-            if not tolerance < worst <= STAGNATION * before:  # nor if it is not a number
+            # So put that it also ends with what is no number, as a singular frame may give.
+            if not tolerance < worst <= STAGNATION * before:
                 return scaled, left
             scaled, before = scaled + correction(lacking), worst
 
@@ -159,9 +160,10 @@ class SpringFrame:
         return self.elongation @ np.concatenate([np.zeros((6, displacements.shape[1])), displacements])
 
     def _quickest_factor(self) -> Factor:
-        """Factors of the stiffness for a single solution; SuperLU has the least overhead in a small or open frame.
+        """Factors of the stiffness for a single solution, by SuperLU if the frame is small or open.
 
-        If some of the frame moves without resistance, there are none, or the loads that drive it stay unbalanced.
+        There fronts take up to four times as long, by their bookkeeping. If some of the frame moves without resistance,
+        there are no factors, or the loads that drive it stay unbalanced.
         """
         try:
             if len(self.pairs) - len(self.nodes) + 1 > MOST_LOOPS_BY_SUPERLU:

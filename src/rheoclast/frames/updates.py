@@ -28,7 +28,7 @@ from rheoclast.frames.cholesky import FrontalCholesky, frontal_cholesky, unknown
 from rheoclast.frames.springs import SpringFrame
 
 MOST_UPDATED = 64  # joints on one factorization; the updates of more cost as much as a new one
-LEAST_REDUNDANCY = 1e-9  # an update divides by it: with less, refinement does not bring the digits back
+LEAST_REDUNDANCY = 1e-9  # an update divides by it; with less it has not seven digits right
 LEAST_PIVOT = 1e-14  # of what stood there before elimination: its rounding is a hundredth of that
 
 
@@ -59,7 +59,7 @@ class FactorizedFrame:
         half, filled = self.factor.forward(self._elongations(joints))
         side = np.zeros((count, added))
         for rows in filled:
-            side -= removal.columns.values[:count, rows] @ half[rows]
+            side -= removal.rows[:, rows] @ half[rows]
         triangle = _bordered(removal.triangle, side.T, np.eye(added) - half.T @ half)
         if triangle is None:
             return None
@@ -67,7 +67,7 @@ class FactorizedFrame:
 
     def shared(self, scaled: FloatArray, removal: Removal) -> FloatArray:
         """Scaled loads q' (6C, K) after a removal, from those before it."""
-        parting = removal.parting(scaled[removal.springs])
+        parting = removal.parting(scaled[removal.lost])
         return removal.cleared(scaled + self._stretched(removal.rows.T @ parting))
 
     def correction(self, lacking: FloatArray, removal: Removal) -> FloatArray:
@@ -107,7 +107,7 @@ class Removal:
     triangle: FloatArray
 
     @property
-    def springs(self) -> IntArray:
+    def lost(self) -> IntArray:
         """Springs (6M,) of the joints."""
         return unknowns(self.joints, 6)
 
@@ -123,7 +123,7 @@ class Removal:
 
     def cleared(self, scaled: FloatArray) -> FloatArray:
         """Scaled loads (6C, K), used up, with nothing left in the removed joints."""
-        scaled[self.springs] = 0.0
+        scaled[self.lost] = 0.0
         return scaled
 
 

@@ -80,7 +80,7 @@ def contact_loads(
         Force and torque on every sphere, (..., N, 3). Their totals must vanish, as for a freely suspended aggregate.
     bonds
         Stiffness of the contacts. It decides how loops share the load; a tree does not need it. Stiffnesses (bending
-        and twisting over a²) up to ten decades apart are shared to eight digits.
+        and twisting over a²) up to ten decades apart are shared to six digits or more.
     method
         "statics" from balance alone (trees), "springs" from the stiffness of the contacts, "auto" chooses statics for
         a tree.
