@@ -16,6 +16,7 @@ from rheoclast.flows import LinearFlow
 from rheoclast.hydrodynamics.model import HydrodynamicModel
 from rheoclast.mechanics.criteria.criterion import Criterion
 from rheoclast.mechanics.laws.law import ContactLaw
+from rheoclast.mechanics.material import MATERIALS
 from rheoclast.names import (
     CRITERIA,
     FLOWS,
@@ -150,6 +151,13 @@ class Conditions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     @property
     def contact_materials(self) -> tuple[ContactMaterial, ...]:
         """The materials of the contacts."""
+        for position, each in enumerate(self.materials):
+            if isinstance(each, str) and each not in MATERIALS:
+                known = ", ".join(MATERIALS)
+                raise ValueError(
+                    f"materials[{position}]: expected {known}, or a table {{ name = …, youngs_modulus = …, "
+                    f"poisson_ratio = …, work_of_adhesion = … }}, got {each!r}"
+                )
         return tuple(ContactMaterial(each) if isinstance(each, str) else each for each in self.materials)
 
     def failure_criterion(self, material: ContactMaterial) -> Criterion:

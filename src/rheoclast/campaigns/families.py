@@ -40,6 +40,8 @@ def combinations(
         If the family or a parameter is not known, one is missing, a list is empty, or a value is of another type.
     """
     name = asked.get("name", "")
+    if not isinstance(name, str):
+        raise ValueError(f"name: expected the name of one family, got {name!r}; give every family a table of its own")
     one_of("name", FAMILIES, name)
     parameters = _parameters(name)
     request = msgspec.convert(dict(asked), _request(name))

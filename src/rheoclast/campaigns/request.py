@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Mapping
+from difflib import get_close_matches
+from inspect import signature
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -17,22 +19,26 @@ import numpy as np
 from msgspec import Meta, Struct
 
 from rheoclast.campaigns.choices import COUNTING, NATURAL
-from rheoclast.campaigns.conditions import Conditions
-from rheoclast.campaigns.families import RADIUS, combinations, is_random
+from rheoclast.campaigns.conditions import Conditions, ContactMaterial, Hydrodynamics, NamedGradient, Orientations
+from rheoclast.campaigns.families import RADIUS, SEED, combinations, is_random
+from rheoclast.campaigns.histories import Histories
 from rheoclast.campaigns.identity import derived_seed
 from rheoclast.campaigns.task import Task
+from rheoclast.generation.families import FAMILIES
 from rheoclast.hydrodynamics.response import DIMENSIONLESS_VISCOSITY
 from rheoclast.scales import warn_of_radii, warn_of_viscosity
 
 _PLACE = re.compile(r" - at `\$\.?([^`]*)`$")
-_PLAIN_WORDS = {
-    "Object contains unknown field": "unknown key",
-    "Object missing required field": "missing key",
-    "Expected": "expected",
-    "array": "list",
-    "object": "table",
-    "`": "",
+_UNKNOWN, _MISSING = "Object contains unknown field ", "Object missing required field "
+_KINDS = {
+    "int": "an integer",
+    "float": "a number",
+    "str": "text",
+    "bool": "true or false",
+    "array": "a list",
+    "object": "a table",
 }
+"""Types as a reader of typed data calls them, in the words of TOML."""
 
 
 class Seeds(Struct, frozen=True, forbid_unknown_fields=True):
@@ -93,7 +99,7 @@ class Campaign(Conditions, frozen=True, forbid_unknown_fields=True, kw_only=True
             try:
                 yield from combinations(asked, self.sizes, self.radius)
             except ValueError as error:
-                raise ValueError(f"families[{position}]: {plain(error)}") from None
+                raise ValueError(f"families[{position}]: {plain(error, asked, _parameters(asked))}") from None
 
     def _refuse_unreadable_histories(self) -> None:
         if self.histories is not None:
@@ -108,8 +114,8 @@ def read_campaign(path: str | os.PathLike[str]) -> Campaign:
 
     Raises
     ------
-    FileNotFoundError
-        If there is no such file.
+    FileNotFoundError, IsADirectoryError
+        If there is no such file, or a folder in its place.
     ValueError
         If it is not TOML, or a key is unknown, missing, or has a value that is not understood.
 
@@ -118,17 +124,33 @@ def read_campaign(path: str | os.PathLike[str]) -> Campaign:
     UnitWarning
         If a radius or the viscosity is so large that its unit is probably wrong.
     """
+    request = _decoded(Path(path))
     try:
-        request = msgspec.toml.decode(Path(path).read_bytes())
         campaign = msgspec.convert(_located(request, Path(path).parent), Campaign, dec_hook=_as_path)
-    except FileNotFoundError:
-        raise FileNotFoundError(f"{path}: there is no such file; check its name and the current folder") from None
     except ValueError as error:
-        raise ValueError(f"{path}: {plain(error)}") from None
+        raise ValueError(f"{path}: {plain(error, request, _TABLES)}") from None
     if campaign.viscosity != DIMENSIONLESS_VISCOSITY:
         warn_of_radii(np.array([campaign.radius, *(parameters[RADIUS] for _, parameters in campaign.kinds())]))
         warn_of_viscosity(campaign.viscosity)
     return campaign
+
+
+def _decoded(path: Path) -> dict[str, Any]:
+    """What stands in a file of TOML."""
+    if path.is_dir():
+        raise IsADirectoryError(f"{path}: expected a campaign in TOML, got a folder; name a file in it")
+    try:
+        return dict(msgspec.toml.decode(path.read_bytes()))
+    except FileNotFoundError:
+        raise FileNotFoundError(f"{path}: there is no such file; check its name and the current folder") from None
+    except UnicodeDecodeError as error:
+        raise ValueError(
+            f"{path}: expected a campaign in TOML, got byte {error.object[error.start]:#x} at position {error.start}, "
+            "which is no text in UTF-8; save it as UTF-8"
+        ) from None
+    except msgspec.DecodeError as error:
+        problem = f"{error}"[0].lower() + f"{error}"[1:]
+        raise ValueError(f"{path}: expected a campaign in TOML, with lines key = value; {problem}") from None
 
 
 def _located(request: dict[str, Any], folder: Path) -> dict[str, Any]:
@@ -149,17 +171,74 @@ def _located_file(file: Any, folder: Path) -> Any:
 
 def _as_path(kind: type, value: Any) -> Path:
     """What stands for a path, the only type of a campaign that TOML does not know."""
+    if not isinstance(value, str):
+        raise ValueError(f"expected the name of a file, got {value!r:.60}")
     return Path(value)
 
 
-def plain(error: Exception) -> str:
-    """What a reader of typed data complains about: the key first, in the words of TOML."""
-    message = str(error)
-    place = _PLACE.search(message)
-    if place is None and not isinstance(error, msgspec.ValidationError):
-        return message
-    message = _PLACE.sub("", message)
-    if message.startswith(tuple(_PLAIN_WORDS)):
-        for typed, word in _PLAIN_WORDS.items():
-            message = message.replace(typed, word)
-    return f"{place[1]}: {message}" if place and place[1] else message
+_TABLES = {
+    "": Campaign.__struct_fields__,
+    "seeds": Seeds.__struct_fields__,
+    "hydrodynamics": Hydrodynamics.__struct_fields__,
+    "orientations": Orientations.__struct_fields__,
+    "flows": NamedGradient.__struct_fields__,
+    "materials": ContactMaterial.__struct_fields__,
+    "histories": Histories.__struct_fields__,
+}
+"""Keys of the tables of a campaign."""
+
+
+def _parameters(asked: Mapping[str, Any]) -> Mapping[str, Collection[str]]:
+    """Keys of the table of a family, if it is known."""
+    family = FAMILIES.get(asked.get("name", ""))
+    return {} if family is None else {"": ("name", *(key for key in signature(family).parameters if key != SEED))}
+
+
+def plain(error: Exception, request: Any, tables: Mapping[str, Collection[str]]) -> str:
+    """What a reader of typed data complains about: the key first, in the words of TOML, and what stands there.
+
+    Parameters
+    ----------
+    error
+        The complaint.
+    request
+        The data.
+    tables
+        The keys that are known, by the place of the table in the data.
+    """
+    found = _PLACE.search(str(error))
+    if found is None and not isinstance(error, msgspec.ValidationError):
+        return str(error)
+    message, place = _PLACE.sub("", str(error)), found[1] if found else ""
+    if message.startswith(_UNKNOWN):
+        message = _unknown(message.removeprefix(_UNKNOWN).strip("`"), tables.get(re.sub(r"\[\d+\]", "", place), ()))
+    elif message.startswith(_MISSING):
+        message = f"missing key {message.removeprefix(_MISSING).strip('`')}"
+    elif message.startswith("Expected"):
+        message = f"{_expected(message)}, got {_at(request, place)!r:.60}"
+    return f"{place}: {message}" if place else message
+
+
+def _unknown(key: str, known: Collection[str]) -> str:
+    nearest = get_close_matches(key, known, 1)
+    if nearest:
+        return f"unknown key {key}; did you mean {nearest[0]}?"
+    return f"unknown key {key}; " + (f"known are {', '.join(known)}" if known else "remove it")
+
+
+def _expected(message: str) -> str:
+    """The type that was expected, without the one that came: "expected an integer of at least 1"."""
+    wanted = message.partition(", got ")[0].removeprefix("Expected ").replace("`", "")
+    kinds, _, bound = wanted.partition(" of length ")
+    kinds, _, least = kinds.partition(" >= ")
+    named = " or ".join(_KINDS.get(kind, kind) for kind in kinds.split(" | ") if kind != "null")
+    return f"expected {named}" + (
+        f" of at least {least}" if least else f" of length {bound.replace('>=', 'at least')}" if bound else ""
+    )
+
+
+def _at(request: Any, place: str) -> Any:
+    """The value at a place such as `histories.files[0]`."""
+    for key, index in re.findall(r"([^.\[\]]+)|\[(\d+)\]", place):
+        request = request[int(index) if index else key]
+    return request

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import typer
 
 import rheoclast
@@ -10,6 +12,7 @@ from rheoclast.cli.breakup import FILES, Setting, breakup_summary, write_breakup
 from rheoclast.cli.console import progress_bar, screen, tell_memory
 from rheoclast.cli.presentation import show_breakup
 from rheoclast.cli.signatures import grouped
+from rheoclast.cli.units import Units
 from rheoclast.hydrodynamics.response import rigid_response
 from rheoclast.progress import Progress
 
@@ -17,6 +20,7 @@ from rheoclast.progress import Progress
 @grouped
 def break_command(
     *,
+    context: typer.Context,
     source: options.AggregateFile,
     flow: options.FlowChoice,
     viscosity: options.Viscosity = 1e-3,
@@ -28,32 +32,40 @@ def break_command(
     overwrite: options.Overwrite = False,
     as_json: options.Json = False,
 ) -> None:
-    """Break an aggregate, contact by contact, as the flow is made faster: critical rates, failures, fragments.
+    """Break an aggregate, contact by contact, as the flow is made faster: initiation and breakup rate, fragments.
 
     [bold]Example:[/bold] rheoclast break floc.dat --unit nm --flow uniaxial --orientation worst --output out
     """
+    options.refuse_idle(context)
+    options.refuse_mixed_units(source, viscosity, contacts)
+    if breakup.with_cascade and not flow.has_rate:
+        raise ValueError("--cascade: fragments break at the rate of the flow; add --rate or --gradient")
+    limit = breakup.limit
     if output is not None:
         results.prepare(output, overwrite, FILES)
-    if animation and output is None:
-        raise ValueError("animation: the film is written to a folder; give --output")
-    if breakup.with_cascade and not flow.has_rate:
-        raise ValueError("--cascade: fragments break at the rate of the flow; give --rate or --gradient")
-    limit = breakup.limit
     with progress_bar() as progress:
         setting = _setting(source, flow, viscosity, model, contacts, breakup, progress)
         broken = setting.broken(breakup.seed, limit)
         pieces = setting.cascade(broken.flow, progress) if breakup.with_cascade else None
-    named = {"rheoclast": rheoclast.__version__, "file": str(source.file)}
-    summary = named | breakup_summary(setting, broken, pieces)
+    units = Units.of_file(source.unit)
+    asked = {"command": context.obj, "file": str(source.file), "flow_name": flow.name, **breakup.told()}
+    contact_law = contacts.told(setting.bonds, len(setting.aggregate.pairs))
+    summary = _summary(asked, breakup_summary(setting, broken, pieces), contact_law, units)
     text = results.json_text(summary)
     if output is not None:
-        write_breakup(output, broken, pieces, text, animation)
+        write_breakup(output, broken, pieces, text, units, animation)
     if as_json:
         typer.echo(text)
         return
-    show_breakup(str(source.file), summary, broken.breakup)
+    show_breakup(summary, broken.breakup)
     if output is not None:
-        screen.print(f"written to {output}", soft_wrap=True, markup=False)
+        screen.print(f"written to {output}: {', '.join(results.written(output, FILES))}", soft_wrap=True, markup=False)
+
+
+def _summary(asked: dict[str, Any], found: dict[str, Any], contact_law: dict[str, Any], units: Units) -> dict[str, Any]:
+    """What was asked for and what came of it, with the version and the names of the units."""
+    named = {"rheoclast": rheoclast.__version__, **asked}
+    return {**named, **found, "contact_law": contact_law, "units": units.names._asdict()}
 
 
 def _setting(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -11,7 +11,8 @@ from typing import Any, Literal
 import numpy as np
 
 from rheoclast import io, view
-from rheoclast.breakup.cascade import Cascade, cascade
+from rheoclast._checks import IntArray
+from rheoclast.breakup.cascade import Cascade, Piece, cascade
 from rheoclast.breakup.contact_response import ContactResponse, contact_response
 from rheoclast.breakup.crack import Rule, break_up
 from rheoclast.breakup.event import Breakup, Failure
@@ -21,7 +22,7 @@ from rheoclast.breakup.truncation import rate_error
 from rheoclast.cli.analysis import Analysis
 from rheoclast.cli.results import finished_together
 from rheoclast.cli.tables import contact_table, sphere_table
-from rheoclast.cli.units import Units
+from rheoclast.cli.units import UnitNames, Units
 from rheoclast.flows import LinearFlow
 from rheoclast.hydrodynamics.response import RigidResponse
 from rheoclast.io.contact_table import write_pairs
@@ -100,7 +101,7 @@ class Setting:
 
 
 def breakup_summary(setting: Setting, broken: Broken, pieces: Cascade | None) -> dict[str, Any]:
-    """Everything that the command reports, ready for JSON: SI units, none where a rate is infinite."""
+    """What came of it, ready for JSON: SI units, none where a rate is infinite."""
     breakup, aggregate = broken.breakup, setting.aggregate
     summary: dict[str, Any] = {
         "spheres": len(aggregate),
@@ -148,25 +149,30 @@ def _near_ties(breakup: Breakup) -> int | None:
     return None if any(failure.rivals is None for failure in breakup.failures) else len(breakup.near_ties())
 
 
-def write_breakup(folder: Path, broken: Broken, pieces: Cascade | None, summary: str, animation: bool) -> None:
+def write_breakup(
+    folder: Path, broken: Broken, pieces: Cascade | None, summary: str, units: Units, animation: bool
+) -> None:
     """Write tables, fragments, pictures and the summary into a folder, which is made if needed."""
-    breakup = broken.breakup
-    remaining = breakup.fragments if pieces is None else pieces.remaining
+    breakup, tags = broken.breakup, units.tags
+    length_unit = units.names.length or None
+    held = None if pieces is None else _held(pieces)
+    remaining = breakup.fragments if held is None else tuple(piece.aggregate for piece in held)
     with finished_together(folder, FILES) as unfinished:
         (unfinished / "summary.json").write_text(summary + "\n", encoding="utf-8")
-        io.write_table(unfinished / "contacts.csv", intact_table(broken))
-        io.write_table(unfinished / "spheres.csv", sphere_table(broken.intact, Units()) | fragment_column(breakup))
+        io.write_table(unfinished / "contacts.csv", intact_table(broken, units))
+        spheres = sphere_table(broken.intact, units) | _fragment_columns(breakup, held)
+        io.write_table(unfinished / "spheres.csv", spheres)
         if breakup.failures:
-            io.write_table(unfinished / "failures.csv", failure_table(breakup))
-        io.write_table(unfinished / "fragments.csv", fragment_table(remaining))
+            io.write_table(unfinished / "failures.csv", failure_table(breakup, tags))
+        io.write_table(unfinished / "fragments.csv", fragment_table(remaining, tags))
         if pieces is not None:
-            io.write_table(unfinished / "pieces.csv", pieces.table())
+            io.write_table(unfinished / "pieces.csv", piece_table(pieces, tags))
         digits = len(str(len(remaining)))
         for k, fragment in enumerate(remaining):
             _write_fragment(unfinished, f"fragment_{k + 1:0{digits}d}", fragment)
-        view.save(view.draw_crack(breakup, flow=broken.flow), unfinished / "crack.png")
+        view.save(view.draw_crack(breakup, flow=broken.flow, length_unit=length_unit), unfinished / "crack.png")
         if animation:
-            view.animate_crack(breakup, unfinished / "crack.gif", flow=broken.flow)
+            view.animate_crack(breakup, unfinished / "crack.gif", flow=broken.flow, length_unit=length_unit)
 
 
 def _write_fragment(folder: Path, name: str, fragment: Aggregate) -> None:
@@ -175,22 +181,35 @@ def _write_fragment(folder: Path, name: str, fragment: Aggregate) -> None:
     write_pairs(folder / f"{name}_contacts.csv", fragment.pairs)
 
 
-def intact_table(broken: Broken) -> dict[str, Any]:
+def intact_table(broken: Broken, units: Units) -> dict[str, Any]:
     """Columns with one row per contact before any has failed; `load_ratio` is that of the criterion in use."""
     intact = broken.intact
     ratios = load_ratios(intact.contact_loads, intact.bonds, criterion=broken.criterion)
-    return contact_table(intact, Units()) | {"load_ratio": ratios.max(axis=-1)}
+    return contact_table(intact, units) | {"load_ratio": ratios.max(axis=-1)}
 
 
-def fragment_column(breakup: Breakup) -> dict[str, Any]:
-    """Column with the fragment that each sphere is in once the aggregate is split, the largest being 1."""
-    number = np.empty(len(breakup.aggregate), dtype=np.intp)
-    for k, spheres in enumerate(breakup.spheres):
+def _held(pieces: Cascade) -> list[Piece]:
+    """What holds in the end of a cascade, the largest first."""
+    return sorted((piece for piece in pieces.pieces if piece.holds), key=lambda piece: len(piece.spheres), reverse=True)
+
+
+def _fragment_columns(breakup: Breakup, held: list[Piece] | None) -> dict[str, Any]:
+    """Columns with the fragment that each sphere is in: in the end and, before a cascade, after the first split."""
+    first = _numbered(breakup.spheres, len(breakup.aggregate))
+    if held is None:
+        return {"fragment": first}
+    return {"fragment": _numbered([piece.spheres for piece in held], len(first)), "first_fragment": first}
+
+
+def _numbered(parts: Sequence[IntArray], count: int) -> IntArray:
+    """Number of the part that each of some spheres is in, the first being 1."""
+    number = np.empty(count, dtype=np.intp)
+    for k, spheres in enumerate(parts):
         number[spheres] = k + 1
-    return {"fragment": number}
+    return number
 
 
-def failure_table(breakup: Breakup) -> dict[str, Any]:
+def failure_table(breakup: Breakup, tags: UnitNames) -> dict[str, Any]:
     """Columns with one row per failure, in order."""
     failures = breakup.failures
     surface = {failure.contact for failure in breakup.surface}
@@ -203,9 +222,9 @@ def failure_table(breakup: Breakup) -> dict[str, Any]:
         "contact": column(lambda failure: failure.contact),
         "i": column(lambda failure: failure.pair[0]),
         "j": column(lambda failure: failure.pair[1]),
-        "point_m": breakup.aggregate.contact_points[column(lambda failure: failure.contact)],
-        "rate_per_s": column(lambda failure: failure.rate),
-        "reached_per_s": column(lambda failure: failure.reached),
+        f"point{tags.length}": breakup.aggregate.contact_points[column(lambda failure: failure.contact)],
+        f"rate{tags.rate}": column(lambda failure: failure.rate),
+        f"reached{tags.rate}": column(lambda failure: failure.reached),
         "overload": column(lambda failure: failure.overload),
         "criterion": column(lambda failure: failure.criterion),
         "margin": column(lambda failure: failure.margin),
@@ -216,13 +235,21 @@ def failure_table(breakup: Breakup) -> dict[str, Any]:
     }
 
 
-def fragment_table(fragments: tuple[Aggregate, ...]) -> dict[str, Any]:
+def piece_table(pieces: Cascade, tags: UnitNames) -> dict[str, Any]:
+    """Columns of `Cascade.table`, whose names have their unit only where there is one."""
+    columns = pieces.table()
+    if tags.length:
+        return columns
+    return {name.removesuffix("_m").removesuffix("_per_s"): values for name, values in columns.items()}
+
+
+def fragment_table(fragments: tuple[Aggregate, ...], tags: UnitNames) -> dict[str, Any]:
     """Columns with one row per fragment, the largest first."""
     return {
         "fragment": np.arange(1, len(fragments) + 1),
         "spheres": np.array([len(each) for each in fragments]),
         "contacts": np.array([len(each.pairs) for each in fragments]),
-        "radius_of_gyration_m": np.array([radius_of_gyration(each.spheres) for each in fragments]),
+        f"radius_of_gyration{tags.length}": np.array([radius_of_gyration(each.spheres) for each in fragments]),
         "shape_anisotropy": np.array([relative_shape_anisotropy(each.spheres) for each in fragments]),
         "coordination": np.array([mean_coordination(each) for each in fragments]),
     }

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 from inspect import Parameter, cleandoc, signature
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, get_args
 
 import typer
 
@@ -14,12 +14,15 @@ from rheoclast import io as files
 from rheoclast.cli import options
 from rheoclast.cli.console import screen
 from rheoclast.cli.presentation import show_shape
+from rheoclast.cli.results import refuse_unwritable
 from rheoclast.cli.signatures import with_parameters
+from rheoclast.cli.speech import number, whole_number
 from rheoclast.cli.tables import shape_summary
 from rheoclast.generation.families import FAMILIES, Family
 from rheoclast.generation.lattices import LATTICES
 from rheoclast.io.contact_table import write_pairs
 from rheoclast.io.files import writable
+from rheoclast.io.formats import format_to_write
 from rheoclast.particles.aggregate import Aggregate
 
 RADIUS = 0.5e-6
@@ -28,9 +31,12 @@ RADIUS = 0.5e-6
 WRITTEN_ONLY = (".vtp",)
 """Endings of files that hold contacts, but are not read."""
 
+VALUES: dict[Any, tuple[str, Callable[[str], Any]]] = {float: ("<number>", number), int: ("<integer>", whole_number)}
+"""How the value of a type is called and read."""
+
 HELP = {
     "count": "Number of spheres.",
-    "radius": "Radius of the spheres in m, the median where they are unequal.",
+    "radius": "Radius of the spheres in m{}.",
     "spread": "Standard deviation of the logarithm of the radius.",
     "seed": "Equal seeds give equal aggregates.",
     "bend": "Angle in rad between successive links.",
@@ -59,7 +65,27 @@ EXAMPLES = {
 }
 """Arguments of an example, for families that need more than a number of spheres."""
 
-generate = typer.Typer(no_args_is_help=True, rich_markup_mode="rich")
+PURPOSES = {
+    "straight-chain": "Straight chain of equal spheres along x.",
+    "bent-chain": "Chain of equal spheres that turns by the same angles from link to link.",
+    "ring": "Ring of equal spheres in the plane z = 0.",
+    "cross": "Cross of equal spheres: one at the centre, and as many along each of its arms.",
+    "lattice-block": "Block of equal spheres on a lattice: spheres in a row, rows in a layer, layers.",
+    "lattice-ball": "Ball of equal spheres: those sites of a lattice that are nearest to one of them.",
+    "ballistic-particle-cluster": "Spheres that arrive one by one on straight lines and stick where they touch.",
+    "ballistic-cluster-cluster": "Two halves that meet on a straight line, each grown in the same way.",
+    "diffusion-limited-particle-cluster": "Spheres that arrive one by one by diffusion and stick where they touch.",
+    "diffusion-limited-cluster-cluster": "Two halves that meet by diffusion, each grown in the same way.",
+    "reaction-limited-cluster-cluster": "Clusters that stick together with a vanishing probability per touch.",
+    "cluster-cluster": "Tree of prescribed fractal dimension and prefactor, made of clusters.",
+    "ballistic-migration": "Spheres that arrive on straight lines and roll on to a second or third contact.",
+    "random-packed-ball": "Random close-packed ball of equal spheres, each on three that were there before it.",
+    "thinned-fcc-ball": "Ball of equal spheres on the face-centred cubic lattice, thinned to a mean coordination.",
+    "compacted-cluster": "Tree of clusters, compacted by an amount: from the tree (0) to a packing (1).",
+}
+"""What a family is, in one line; of others it is what the docstring says first."""
+
+generate = typer.Typer(rich_markup_mode="rich")
 
 
 @generate.callback()
@@ -76,14 +102,21 @@ def command_of(name: str, family: Family) -> Callable[..., None]:
     def command(
         *,
         output: Annotated[
-            Path | None, typer.Option(help="File to write; by default named after the family.", show_default=False)
+            Path | None,
+            typer.Option(
+                metavar="<file>",
+                help="File to write; by default named after the family.",
+                rich_help_panel=options.OUTPUT,
+                show_default=False,
+            ),
         ] = None,
-        file_format: options.Format = None,
+        file_format: options.FormatToWrite = None,
         overwrite: options.Overwrite = False,
         **parameters: Any,
     ) -> None:
         path = Path(f"{name}.dat") if output is None else output
-        writable(path, overwrite)  # refused now rather than after the growth
+        refuse_unwritable(writable(path, overwrite).parent, str(path))  # now rather than after the growth
+        format_to_write(path, file_format)
         aggregate = family(**parameters)
         contacts = _contact_file(path, aggregate, overwrite)
         files.write(path, aggregate, format=file_format, overwrite=overwrite)
@@ -96,7 +129,7 @@ def command_of(name: str, family: Family) -> Callable[..., None]:
             screen.print(advice, soft_wrap=True, markup=False)
 
     example = f"rheoclast generate {name} {EXAMPLES.get(name, '100')}"
-    purpose = (family.__doc__ or "").splitlines()[0].replace("`", "")
+    purpose = PURPOSES.get(name) or (family.__doc__ or "").splitlines()[0].replace("`", "")
     command.__doc__ = f"{purpose}\n\n[bold]Example:[/bold] {example}"
     own = [each for each in signature(command, eval_str=True).parameters.values() if each.name != "parameters"]
     taken = [_parameter(family, each) for each in signature(family, eval_str=True).parameters.values()]
@@ -117,9 +150,13 @@ def _parameter(family: Family, given: Parameter) -> Parameter:
     required = given.default is Parameter.empty
     kind = typer.Argument if required and given.kind is not Parameter.KEYWORD_ONLY else typer.Option
     default = RADIUS if given.name == "radius" else given.default
-    help_text = HELP.get(given.name) or documented(family, given.name)
+    unequal = ", the median where they are unequal" if "spread" in signature(family).parameters else ""
+    help_text = HELP.get(given.name, "").format(unequal) or documented(family, given.name)
     annotation: Any = given.annotation
-    described = Annotated[annotation, kind(help=help_text)]
+    metavar, parser = VALUES.get(get_args(annotation)[0] if get_args(annotation) else annotation, (None, None))
+    if kind is typer.Argument:
+        metavar = None  # it would stand in place of the name
+    described = Annotated[annotation, kind(help=help_text, metavar=metavar, parser=parser)]
     return Parameter(given.name, Parameter.KEYWORD_ONLY, default=default, annotation=described)
 
 

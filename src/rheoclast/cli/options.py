@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
+from inspect import signature
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 import numpy as np
 import typer
@@ -13,8 +14,12 @@ import typer
 from rheoclast import _checks, io, names
 from rheoclast.breakup.crack import Rule
 from rheoclast.cli.breakup import Orientation
+from rheoclast.cli.speech import number, one_of, whole_number
 from rheoclast.flows import LinearFlow
 from rheoclast.hydrodynamics.model import HydrodynamicModel
+from rheoclast.hydrodynamics.response import DIMENSIONLESS_VISCOSITY
+from rheoclast.io.lengths import DIMENSIONLESS
+from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.criteria.criterion import Criterion
 from rheoclast.mechanics.laws.law import ContactLaw
 from rheoclast.mechanics.material import MATERIALS
@@ -35,11 +40,12 @@ PROPERTIES = {
 """Properties of a material, and their names in a summary."""
 
 
-def _choice(option: str, choices: Collection[str], help_text: str, panel: str) -> Any:
+def _choice(option: str, choices: Collection[str], help_text: str, panel: str, **more: Any) -> Any:
     """An option whose value is one of some names, which stand for `{}` in its help and which the shell completes."""
     return typer.Option(
         option,
         metavar="<name>",
+        **more,
         help=help_text.format(", ".join(choices)),
         autocompletion=lambda: list(choices),
         rich_help_panel=panel,
@@ -122,7 +128,9 @@ class AggregateFile:
     unit: Annotated[
         str,
         typer.Option(
-            help="Unit of length in the file: m, mm, um, nm, or a number in metres.", rich_help_panel=AGGREGATE
+            metavar="<unit>",
+            help="Unit of length in the file: m, mm, um, nm, angstrom, a number in metres, or dimensionless.",
+            rich_help_panel=AGGREGATE,
         ),
     ] = "m"
     file_format: Format = None
@@ -138,11 +146,17 @@ class AggregateFile:
     contacts: Annotated[
         Path | None,
         typer.Option(
-            help="Table with columns i and j, the spheres in contact; by default all that touch.",
+            metavar="<file>",
+            help="Table with columns i and j, the spheres in contact, counted from 0; by default all that touch.",
             rich_help_panel=AGGREGATE,
             show_default=False,
         ),
     ] = None
+
+    @property
+    def unit_name(self) -> str:
+        """What the unit of length is called in results, which are in metres unless the file has no unit."""
+        return "" if self.unit == DIMENSIONLESS else "m"
 
     def read(self) -> Aggregate:
         """The aggregate."""
@@ -174,7 +188,7 @@ class FlowChoice:
     gradient: Annotated[
         str | None,
         typer.Option(
-            metavar="<9 floats>",
+            metavar="<9 numbers>",
             help="Any velocity gradient instead: nine numbers in 1/s, row by row.",
             rich_help_panel=FLOW,
             show_default=False,
@@ -196,15 +210,17 @@ class FlowChoice:
         if self.gradient is None:
             names.one_of("flow", names.FLOWS, self.flow)
             return names.FLOWS[self.flow](1.0 if self.rate is None else self.rate)
-        if self.rate is not None:
-            raise ValueError("rate: a flow given by its --gradient has no rate of its own; leave one of them out")
         words = self.gradient.replace(",", " ").split()
         try:
             numbers = np.array([float(word) for word in words])
         except ValueError:
-            raise ValueError(f"gradient: expected nine numbers, got {self.gradient!r}") from None
+            raise ValueError(
+                f"gradient: expected nine numbers, got {self.gradient!r}; write them in quotation marks, row by row"
+            ) from None
         if numbers.size != 9:
-            raise ValueError(f"gradient: expected nine numbers, got {numbers.size}")
+            raise ValueError(
+                f"gradient: expected nine numbers, got {numbers.size}; write them in quotation marks, row by row"
+            )
         return LinearFlow(numbers.reshape(3, 3))
 
 
@@ -216,7 +232,7 @@ class ModelChoice:
     order: Annotated[
         str,
         typer.Option(
-            metavar="<int>", help="Multipole order (2 is force-torque-stresslet), or auto.", rich_help_panel=LIQUID
+            metavar="<integer>", help="Multipole order (2 is force-torque-stresslet), or auto.", rich_help_panel=LIQUID
         ),
     ] = "2"
     accuracy: Annotated[float, _number("With --order auto: largest error of the loads, as a share.", LIQUID)] = 0.02
@@ -237,7 +253,13 @@ class ContactChoice:
     """A material and a contact law by name, with the numbers that are given instead of theirs."""
 
     material: Annotated[
-        str, _choice("--material", MATERIALS, "{}, or any other name with its three properties.", BONDS)
+        str,
+        _choice(
+            "--material",
+            MATERIALS,
+            "{} (adhesion known to a factor of a few), or any other name with its three properties.",
+            BONDS,
+        ),
     ] = "polystyrene"
     youngs_modulus: Annotated[float | None, _number("In Pa, instead of the material's.", BONDS)] = None
     poisson_ratio: Annotated[float | None, _number("Instead of the material's.", BONDS)] = None
@@ -249,8 +271,10 @@ class ContactChoice:
     stiffness: Annotated[
         tuple[float, float, float, float] | None,
         typer.Option(
-            metavar="<4 floats>",
-            help="Explicit normal and tangential (N/m), bending and twisting (N m/rad) stiffness; needs --pull-off.",
+            metavar="<4 numbers>",
+            parser=number,
+            help="Explicit normal and tangential (N/m), bending and twisting (N m/rad) stiffness, separated by spaces; "
+            "needs --pull-off.",
             rich_help_panel=BONDS,
             show_default=False,
         ),
@@ -259,6 +283,25 @@ class ContactChoice:
     def made(self) -> ContactLaw:
         """The law."""
         return names.contact_law(**vars(self))
+
+    def told(self, bonds: Bonds, contacts: int) -> dict[str, Any]:
+        """What a summary says of the contacts, in SI units; law and material are none where stiffness is given."""
+        pull_off = bonds.strength(contacts)[:, 0]
+        known = None if self.stiffness else MATERIALS.get(self.material)
+        given = {name: getattr(self, name) for name in PROPERTIES}
+        return {
+            "law": None if self.stiffness else self.law,
+            "material": None if self.stiffness else self.material,
+            **{
+                key: getattr(known, name, None) if given[name] is None else given[name]
+                for name, key in PROPERTIES.items()
+            },
+            "pull_off_N": [float(pull_off.min()), float(pull_off.max())],
+            "pull_off_given": self.pull_off is not None,
+            "stiffness": self.stiffness,
+            "friction": None,
+            "rolling_distance_m": None,
+        }
 
 
 @dataclass(frozen=True)
@@ -270,6 +313,11 @@ class LimitedContactChoice(ContactChoice):
         float | None, _number("Distance in m by which a contact rolls before it yields: limits bending too.", BONDS)
     ] = None
 
+    def told(self, bonds: Bonds, contacts: int) -> dict[str, Any]:
+        """See `ContactChoice.told`."""
+        limits = {"friction": self.friction, "rolling_distance_m": self.rolling_distance}
+        return super().told(bonds, contacts) | limits
+
 
 @dataclass(frozen=True)
 class BreakupChoice:
@@ -280,33 +328,34 @@ class BreakupChoice:
     )
     rule: Annotated[
         Rule,
-        typer.Option(
-            metavar="<name>",
-            parser=partial(one_of, get_args(Rule)),
-            autocompletion=lambda: list(get_args(Rule)),
-            help="weakest, one contact fails after the other; or overloaded, all at once that are.",
-            rich_help_panel=BREAKUP,
+        _choice(
+            "--rule",
+            get_args(Rule),
+            "weakest, one contact fails after the other; or overloaded, all at once that are.",
+            BREAKUP,
+            parser=one_of(get_args(Rule)),
         ),
     ] = "weakest"
     orientation: Annotated[
         Orientation,
-        typer.Option(
-            metavar="<name>",
-            parser=partial(one_of, get_args(Orientation)),
-            autocompletion=lambda: list(get_args(Orientation)),
-            help="given, as in the file; worst, for tension; orbit, the worst along the free rotation; or random.",
-            rich_help_panel=BREAKUP,
+        _choice(
+            "--orientation",
+            get_args(Orientation),
+            "given, as in the file; worst, for tension; orbit, the worst along the free rotation; or random.",
+            BREAKUP,
+            parser=one_of(get_args(Orientation)),
         ),
     ] = "given"
-    seed: Annotated[int, typer.Option(help="Of random orientations.", rich_help_panel=BREAKUP)] = 0
+    seed: Annotated[
+        int,
+        typer.Option(
+            metavar="<integer>", parser=whole_number, help="Of --orientation random.", rich_help_panel=BREAKUP
+        ),
+    ] = 0
     up_to: Annotated[float | None, _number("Rate in 1/s above which the flow is not raised.", BREAKUP)] = None
     with_cascade: Annotated[
         bool,
-        typer.Option(
-            "--cascade",
-            help="Break the fragments too, at the rate of the flow, until all hold.",
-            rich_help_panel=BREAKUP,
-        ),
+        _flag("--cascade", "Break the fragments too, at the rate of the flow, until all hold.", BREAKUP),
     ] = False
 
     @property
@@ -314,8 +363,72 @@ class BreakupChoice:
         """Rate in 1/s above which the flow is not raised; infinite if there is none."""
         return np.inf if self.up_to is None else _checks.positive("up_to", self.up_to)
 
+    def told(self) -> dict[str, Any]:
+        """What a summary says of what was asked for, beside what the breakup tells itself."""
+        return {"seed": self.seed if self.orientation == "random" else None, "up_to_per_s": self.up_to}
+
     def failure_criterion(self, contacts: LimitedContactChoice) -> Criterion:
         """The criterion, if the contacts have a limit for it."""
         criterion = names.failure_criterion(self.criterion, contacts.friction)
         names.refuse_unbreakable(self.criterion, contacts.material, contacts.made())
         return criterion
+
+
+IDLE: tuple[tuple[str, Callable[[Mapping[str, Any]], bool], str], ...] = (
+    ("flow rate", lambda given: given["gradient"] is not None, "with --gradient"),
+    ("tolerance", lambda given: given["contacts"] is not None, "with --contacts"),
+    (
+        "material law youngs_modulus poisson_ratio work_of_adhesion",
+        lambda given: given["stiffness"] is not None,
+        "with --stiffness",
+    ),
+    ("order accuracy", lambda given: not _has_order(given["model"]), "with this --model"),
+    ("accuracy", lambda given: given["order"] != "auto", "without --order auto"),
+    ("seed", lambda given: given["orientation"] != "random", "without --orientation random"),
+    ("animation overwrite", lambda given: given["output"] is None, "without --output"),
+)
+"""Options that have no effect, by the values of all, and beside which other."""
+
+
+def refuse_idle(context: typer.Context) -> None:
+    """Refuse an option that has no effect beside the others of a command.
+
+    Raises
+    ------
+    ValueError
+        With the option, and why it has none.
+    """
+    for idle, have_no_effect, why in IDLE:
+        given = [name for name in idle.split() if _is_given(context, name)]
+        if given and have_no_effect(context.params):
+            raise ValueError(f"{given[0]}: has no effect {why}; {_remedy(why)}")
+
+
+def _remedy(why: str) -> str:
+    if why.startswith("without "):
+        return f"leave it out, or add {why.removeprefix('without ')}"
+    return "leave one of them out"
+
+
+def _is_given(context: typer.Context, name: str) -> bool:
+    source = context.get_parameter_source(name) if name in context.params else None
+    return source is not None and source.name == "COMMANDLINE"
+
+
+def _has_order(model: str) -> bool:
+    return model not in names.MODELS or "order" in signature(names.MODELS[model]).parameters
+
+
+def refuse_mixed_units(source: AggregateFile, viscosity: float, contacts: ContactChoice) -> None:
+    """Refuse lengths without a unit beside a liquid and contacts in SI units.
+
+    Raises
+    ------
+    ValueError
+        With what is to be given.
+    """
+    if source.unit == DIMENSIONLESS and (viscosity != DIMENSIONLESS_VISCOSITY or contacts.pull_off is None):
+        raise ValueError(
+            "--unit dimensionless: Pa s and N do not go with lengths that have no unit; add --viscosity 1 and "
+            "--pull-off, and --stiffness for contacts that close loops, or give the unit of the file"
+        )

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator
 from typing import Any
 
 from rich.markup import escape
@@ -11,61 +10,99 @@ from rich.table import Table
 
 from rheoclast.breakup.event import Breakup
 from rheoclast.cli.console import screen
-from rheoclast.view.quantities import quoted
+from rheoclast.report.summary import sizes_in_words
+from rheoclast.view.fragments import counted
+from rheoclast.view.quantities import minus, prefixed
 
-MOST_FAILURES, MOST_SIZES = 10, 12
+MOST_FAILURES = 10
 PREFIXED = ("m", "N", "N m")
+MOMENTS = ("bending", "twisting")
+ROUNDING = 1e-12
+LIES_WELL = (
+    "fragments keep the orientation that is given: what holds may only lie well; "
+    "for what holds in the end take --orientation worst or orbit"
+)
 
 
 def show_shape(name: str, summary: dict[str, Any], length: str) -> None:
     """Print what an aggregate is."""
-    table = _table(name)
+    table = _table()
     _shape_rows(table, summary, length)
-    screen.print(table)
+    _show(name, table)
 
 
-def show_stress(name: str, summary: dict[str, Any]) -> None:
+def show_stress(summary: dict[str, Any]) -> None:
     """Print what the contacts of an aggregate carry, which one fails first, and when."""
     units = summary["units"]
-    table = _table(name)
+    table = _table()
     _shape_rows(table, summary["aggregate"], units["length"])
     table.add_section()
-    _flow_rows(table, summary)
+    model, flow = summary["model"], summary["flow"]
+    _liquid_rows(table, model["name"], model["order"], model["viscosity_Pa_s"], units)
+    table.add_row("flow", f"{flow['name']}, rate {_with_unit(flow['rate_per_s'], units['flow_rate'])}")
+    _contact_rows(table, summary["contact_law"], units)
+    _scale_rows(table, summary["scales"])
     table.add_section()
+    noise = ROUNDING * max(summary["largest"][load] for load in ("tension", "compression", "shear"))
     for load, value in summary["largest"].items():
-        unit = units["moment" if load in ("bending", "twisting") else "force"]
-        table.add_row(f"largest {load}", _quoted(value, unit))
+        kind, least = ("moment", noise * summary["aggregate"]["mean_radius"]) if load in MOMENTS else ("force", noise)
+        table.add_row(f"largest {load}", _quoted(value if value > least else 0.0, units[kind]))
     table.add_section()
     _failure_rows(table, "as given", summary["given_orientation"], units)
     table.add_section()
     _failure_rows(table, "worst orientation", summary["worst_orientation"], units)
-    screen.print(table)
+    _show(summary["file"], table)
 
 
-def show_breakup(name: str, summary: dict[str, Any], breakup: Breakup) -> None:
+def show_breakup(summary: dict[str, Any], breakup: Breakup) -> None:
     """Print how an aggregate broke, and its first failures."""
-    table = _table(name)
+    units = summary["units"]
+    table = _table()
     table.add_row("spheres, contacts", f"{summary['spheres']}, {summary['contacts']}")
     table.add_row("coordination", f"mean {summary['mean_coordination']:.3g}")
-    table.add_row("orientation", summary["orientation"])
     table.add_section()
-    table.add_row("outcome", _outcome(breakup))
+    _liquid_rows(table, summary["model"], summary["order"], summary["viscosity_Pa_s"], units)
+    table.add_row("flow", f"{summary['flow_name']}, made faster from rest")
+    table.add_row("orientation", _orientation(summary))
+    _contact_rows(table, summary["contact_law"], units)
+    table.add_section()
+    for label, value in _course(summary, breakup):
+        table.add_row(label, value)
+    _show(summary["file"], table)
+    if summary["orientation"] == "given" and "cascade" in summary:
+        screen.print(LIES_WELL, soft_wrap=True)
     if breakup.failures:
-        table.add_row("initiation rate", f"[bold]{breakup.initiation_rate:.4g} 1/s[/bold]")
+        title = f"first {MOST_FAILURES} of {len(breakup.failures)} failures"
+        few = len(breakup.failures) <= MOST_FAILURES
+        _show(counted(len(breakup.failures), "failure") if few else title, _failures(breakup, units["rate"]))
+
+
+def _course(summary: dict[str, Any], breakup: Breakup) -> Iterator[tuple[str, str]]:
+    """What happened, in words and numbers."""
+    rate = summary["units"]["rate"]
+    yield "outcome", _outcome(breakup)
+    if breakup.failures:
+        first = _with_unit(breakup.initiation_rate, rate)
+        yield "initiation rate", f"[bold]{first}[/bold]{_margin(summary['initiation_rate_error'])}"
     if breakup.splits:
-        table.add_row("breakup rate", f"[bold]{breakup.breakup_rate:.4g} 1/s[/bold]")
-        table.add_row("fracture surface", f"{summary['surface']} of {summary['failures']} failed contacts")
-        table.add_row("fragments", _sizes(summary["fragments"]))
+        yield "breakup rate", f"[bold]{_with_unit(breakup.breakup_rate, rate)}[/bold]"
+        if summary["failures"] > 1:
+            yield "fracture surface", f"{summary['surface']} of {summary['failures']} failed contacts"
+        yield "fragments", sizes_in_words(summary["fragments"])
     if summary["inwardness"] is not None:
-        table.add_row("inwardness", f"{summary['inwardness']:+.2f} (1: from the outside in, 0: no order)")
+        yield "inwardness", f"{summary['inwardness']:+.2f} (1: from the outside in, 0: no order)"
     if summary["near_ties"]:
-        table.add_row("sequence", f"{summary['near_ties']} failures are ties within the error of the multipole order")
+        ties = counted(summary["near_ties"], "failure")
+        yield "sequence", f"{ties} might have come in another turn, within the error of the multipole order"
     if "cascade" in summary:
-        sizes = summary["cascade"]["sizes"]
-        table.add_row(f"hold at {summary['cascade']['rate_per_s']:.4g} 1/s", f"{len(sizes)}: {_sizes(sizes)}")
-    screen.print(table)
-    if breakup.failures:
-        screen.print(_failures(breakup))
+        held = summary["cascade"]
+        pieces = f"{counted(len(held['sizes']), 'piece')} of {sizes_in_words(held['sizes'])}"
+        yield f"hold at {_with_unit(held['rate_per_s'], rate)}", pieces
+
+
+def _orientation(summary: dict[str, Any]) -> str:
+    seed = summary["seed"]
+    return summary["orientation"] if seed is None else f"{summary['orientation']}, seed {seed}"
 
 
 def _outcome(breakup: Breakup) -> str:
@@ -80,16 +117,9 @@ def _outcome(breakup: Breakup) -> str:
     return f"stays whole: {count} contacts fail, and those that are left hold"
 
 
-def _sizes(sizes: Sequence[int]) -> str:
-    """Numbers of spheres, equal ones counted."""
-    counts = Counter(sizes)
-    shown = [f"{counts[size]} × {size}" if counts[size] > 1 else str(size) for size in sorted(counts, reverse=True)]
-    return ", ".join(shown[:MOST_SIZES]) + (", …" if len(shown) > MOST_SIZES else "") + " spheres"
-
-
-def _failures(breakup: Breakup) -> Table:
-    table = Table(title=f"first failures of {len(breakup.failures)}", title_justify="left")
-    for heading in ("", "contact", "spheres", "rate, 1/s", "by", "overload", "r/Rg", "depth/a"):
+def _failures(breakup: Breakup, rate: str) -> Table:
+    table = Table()
+    for heading in ("", "contact", "spheres", f"rate, {rate}" if rate else "rate", "by", "overload", "r/Rg", "depth/a"):
         table.add_column(heading, justify="right", no_wrap=True)
     for k, failure in enumerate(breakup.failures[:MOST_FAILURES]):
         i, j = failure.pair
@@ -100,11 +130,28 @@ def _failures(breakup: Breakup) -> Table:
 
 
 def _quoted(value: float, unit: str) -> str:
-    return quoted(value, unit) if unit in PREFIXED else f"{value:.4g} {unit}"
+    """A value with three digits and, where it has a size, a prefix to its unit."""
+    if unit not in PREFIXED:
+        return _with_unit(value, unit)
+    rounded = float(f"{value:.3g}")
+    divisor, named = prefixed(abs(rounded), unit)
+    if not rounded or abs(rounded) < divisor:
+        return minus(f"{rounded:.3g} {unit}")  # nothing, or beyond the prefixes
+    return minus(f"{rounded / divisor:#.3g}".rstrip(".") + f" {named}")
 
 
-def _table(title: str) -> Table:
-    table = Table(title=escape(title), show_header=False, title_justify="left", title_style="bold")
+def _with_unit(value: float, unit: str) -> str:
+    return f"{value:.4g} {unit}".rstrip()
+
+
+def _show(title: str, table: Table) -> None:
+    """Print a table below its title, which may be wider."""
+    screen.print(f"[bold]{escape(title)}[/bold]", soft_wrap=True)
+    screen.print(table)
+
+
+def _table() -> Table:
+    table = Table(show_header=False)
     table.add_column(style="cyan")
     table.add_column()
     return table
@@ -113,9 +160,10 @@ def _table(title: str) -> Table:
 def _shape_rows(table: Table, summary: dict[str, Any], length: str) -> None:
     table.add_row("spheres", str(summary["spheres"]))
     table.add_row("contacts", str(summary["contacts"]))
-    table.add_row("structure", f"{summary['structure']}, hyperstaticity {summary['hyperstaticity']}")
-    counts = ", ".join(f"{number} × {contacts}" for contacts, number in summary["coordination_counts"].items())
-    table.add_row("coordination", f"mean {summary['mean_coordination']:.3g} ({counts})")
+    if summary["contacts"]:
+        table.add_row("structure", f"{summary['structure']}, hyperstaticity {summary['hyperstaticity']}")
+        counts = ", ".join(f"{number} × {contacts}" for contacts, number in summary["coordination_counts"].items())
+        table.add_row("coordination", f"mean {summary['mean_coordination']:.3g} ({counts})")
     radius = _quoted(summary["mean_radius"], length)
     if summary["smallest_radius"] < summary["largest_radius"]:
         smallest, largest = (_quoted(summary[f"{end}_radius"], length) for end in ("smallest", "largest"))
@@ -127,20 +175,38 @@ def _shape_rows(table: Table, summary: dict[str, Any], length: str) -> None:
         low, high = summary["fractal_dimension"]["interval"]
         value = summary["fractal_dimension"]["value"]
         table.add_row("fractal dimension", f"{value:.2f} ({low:.2f} to {high:.2f}, from pair distances)")
-    shape = f"{summary['porosity']:.3g}, relative shape anisotropy {summary['relative_shape_anisotropy']:.2g}"
-    table.add_row("porosity", shape)
+    table.add_row("porosity", f"{summary['porosity']:.3g}")
+    anisotropy = summary["relative_shape_anisotropy"]
+    table.add_row("shape anisotropy", f"{anisotropy:.2g}" if anisotropy > ROUNDING else "0")
     if "hydrodynamic_radius" in summary:
         table.add_row("hydrodynamic radius", _quoted(summary["hydrodynamic_radius"], length))
     if "intrinsic_viscosity" in summary:
         table.add_row("intrinsic viscosity", f"{summary['intrinsic_viscosity']:.4g}")
 
 
-def _flow_rows(table: Table, summary: dict[str, Any]) -> None:
-    model, flow = summary["model"], summary["flow"]
-    order = f", order {model['order']}" if model["order"] else ""
-    table.add_row("model", f"{model['name']}{order}")
-    table.add_row("viscosity", f"{model['viscosity_Pa_s']:.4g} Pa s")
-    table.add_row("flow", f"{flow['name']}, rate {flow['rate_per_s']:.4g} 1/s")
+def _liquid_rows(table: Table, model: str, order: int | None, viscosity: float, units: dict[str, str]) -> None:
+    table.add_row("model", f"{model}, order {order}" if order else model)
+    table.add_row("viscosity", _with_unit(viscosity, units["viscosity"]))
+
+
+def _contact_rows(table: Table, told: dict[str, Any], units: dict[str, str]) -> None:
+    """Material and strength; always in SI units, unless the lengths have none."""
+    si = bool(units["length"])
+    stiffness = "explicit stiffness" if told["law"] is None else f"{told['material']}, law {told['law']}"
+    table.add_row("contacts", stiffness)
+    ends = dict.fromkeys(_quoted(end, "N" if si else "") for end in told["pull_off_N"])
+    table.add_row("pull-off force", " to ".join(ends) + ", as given" * told["pull_off_given"])
+    if told["friction"] is not None:
+        table.add_row("friction", f"{told['friction']:.4g}")
+    if told["rolling_distance_m"] is not None:
+        table.add_row("rolling distance", _quoted(told["rolling_distance_m"], "m" if si else ""))
+
+
+def _scale_rows(table: Table, scales: dict[str, float]) -> None:
+    """What the units a, μ, G and F are."""
+    if scales:
+        length, force = _quoted(scales["a_m"], "m"), _quoted(scales["F_N"], "N")
+        table.add_row("units", f"a = {length}, G = {_with_unit(scales['G_per_s'], '1/s')}, F = {force}")
 
 
 def _failure_rows(table: Table, orientation: str, failure: dict[str, Any], units: dict[str, str]) -> None:
@@ -152,6 +218,9 @@ def _failure_rows(table: Table, orientation: str, failure: dict[str, Any], units
     table.add_row(f"critical contact, {orientation}", where)
     strength = _quoted(failure["pull_off_force"], units["force"])
     table.add_row("fails by", f"{failure['criterion']}, pull-off force {strength}")
-    error = failure["critical_rate_error"]
-    margin = "" if error is None else f", ± {error:.1%} from the multipole order"
-    table.add_row("critical rate", f"[bold]{failure['critical_rate']:.4g} {units['rate']}[/bold]{margin}")
+    rate = _with_unit(failure["initiation_rate"], units["rate"])
+    table.add_row("initiation rate", f"[bold]{rate}[/bold]{_margin(failure['initiation_rate_error'])}")
+
+
+def _margin(error: float | None) -> str:
+    return "" if error is None else f", ± {error:.1%} from the multipole order"

@@ -16,7 +16,13 @@ def report_command(
         Path, typer.Argument(help="Folder that stress, break or survey wrote with --output.", show_default=False)
     ],
     output: Annotated[
-        Path | None, typer.Option(help="The page; by default report.html in the folder.", show_default=False)
+        Path | None,
+        typer.Option(
+            metavar="<file>",
+            help="The page; by default report.html in the folder.",
+            rich_help_panel=options.OUTPUT,
+            show_default=False,
+        ),
     ] = None,
     overwrite: options.Overwrite = False,
 ) -> None:

@@ -48,13 +48,14 @@ def prepare(folder: Path, overwrite: bool, names: Sequence[str] = REPLACED) -> N
         If the folder in which it would be made is missing.
     FileExistsError
         If it is a file, or a result is already there and must not be replaced.
+    PermissionError
+        If nothing can be written there.
     """
     if folder.exists() and not folder.is_dir():
         raise FileExistsError(f"--output {folder}: expected a folder, got a file; choose another name")
     if not folder.parent.is_dir():
         raise FileNotFoundError(f"--output {folder}: the folder {folder.parent} does not exist; create it first")
-    if not os.access(folder if folder.exists() else folder.parent, os.W_OK | os.X_OK):
-        raise PermissionError(f"--output {folder}: no permission to write there; choose another folder")
+    refuse_unwritable(place_for(folder), f"--output {folder}")
     found = _present(folder, names)
     folders = [path.name for path in found if path.is_dir()]
     if folders:
@@ -65,6 +66,27 @@ def prepare(folder: Path, overwrite: bool, names: Sequence[str] = REPLACED) -> N
             f"--output {folder}: {', '.join(present[:MOST_NAMED])}{', …' * (len(present) > MOST_NAMED)} already there; "
             "add --overwrite to replace, or choose another folder"
         )
+
+
+def place_for(folder: Path) -> Path:
+    """Where unfinished results go, from which they can be moved: the folder itself once it is there."""
+    return folder if folder.is_dir() else folder.parent
+
+
+def refuse_unwritable(folder: Path, named: str) -> None:
+    """Refuse a folder in which nothing can be made, which only an attempt tells.
+
+    Raises
+    ------
+    PermissionError
+        With what it was named.
+    """
+    try:
+        with tempfile.TemporaryDirectory(prefix=".rheoclast-", dir=folder):
+            pass
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise PermissionError(f"{named}: cannot be written ({reason}); choose another folder") from None
 
 
 def write_results(folder: Path, analysis: Analysis, summary: str, units: Units) -> None:
@@ -79,7 +101,7 @@ def finished_together(folder: Path, names: Sequence[str] = REPLACED) -> Iterator
 
     Earlier results of these names or patterns, of which there may have been more, are gone afterwards.
     """
-    with tempfile.TemporaryDirectory(prefix=".rheoclast-", dir=folder.parent) as name:
+    with tempfile.TemporaryDirectory(prefix=".rheoclast-", dir=place_for(folder)) as name:
         yield Path(name)
         folder.mkdir(exist_ok=True)
         new = sorted(Path(name).iterdir())
@@ -87,6 +109,15 @@ def finished_together(folder: Path, names: Sequence[str] = REPLACED) -> Iterator
             os.replace(path, folder / path.name)
         for stale in {path.name for path in _present(folder, names)} - {path.name for path in new}:
             (folder / stale).unlink()
+
+
+def written(folder: Path, names: Sequence[str]) -> list[str]:
+    """Names of the results in a folder, of which only the first and the last of a pattern are told."""
+    return [told for name in names for told in _told([path.name for path in _present(folder, [name])])]
+
+
+def _told(names: list[str]) -> list[str]:
+    return names if len(names) < 3 else [names[0], "…", names[-1]]
 
 
 def _present(folder: Path, names: Sequence[str]) -> list[Path]:

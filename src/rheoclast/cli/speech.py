@@ -35,8 +35,7 @@ WRONG_USE = (
     (r"^Option '(.+?)' requires (\d+) arguments.*", r"\1: expected \2 values separated by spaces, got fewer"),
     (r"^Got unexpected extra arguments? \((.+)\).*", r"expected nothing more, got \1"),
     (r"^No such (option|command):? '?([^\s']+?)'?\.?(?=\s|$)", r"there is no \1 \2"),
-    (r" ?\(Possible options: (.+)\)", r"; did you mean \1?"),
-    (r",? ?Did you mean (.+)\?", r"; did you mean \1?"),
+    (r"[\s(]+(?:Possible options:|Did you mean(?: one of:)?) *([^?()]+).*$", r"; did you mean \1?"),
 )
 """What the parser of options says, and what is said instead."""
 
@@ -106,8 +105,11 @@ def of_usage(message: str, command: str) -> str:
     text = " ".join(message.split())
     for pattern, said in WRONG_USE:
         text = re.sub(pattern, said, text)
-    text = with_suggestion(text.rstrip("."))
-    return text if "did you mean" in text else f"{text}; see {command} --help"
+    text = re.sub(r"^expected <\w+>", lambda found: found[0].lower(), text)
+    refusal, meant, suggestion = with_suggestion(text.rstrip(".")).partition("; did you mean ")
+    if not meant:
+        return f"{refusal}; see {command} --help"
+    return refusal + meant + suggestion.replace("'", "")
 
 
 def number(given: str | float) -> float:
@@ -130,6 +132,17 @@ def whole_number(given: str | int) -> int:
         If it is none.
     """
     return _parsed(int, given, "an integer")
+
+
+def one_of(choices: Collection[str]) -> Callable[[str], str]:
+    """A function that gives a word back, and raises `typer.BadParameter` if it is none of some names."""
+
+    def name(given: str) -> str:
+        if given not in choices:
+            raise typer.BadParameter(f"expected one of {', '.join(choices)}, got {given!r:.60}")
+        return given
+
+    return name
 
 
 def _parsed(kind: Callable[[Any], Any], given: Any, expected: str) -> Any:

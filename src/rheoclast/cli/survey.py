@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -14,6 +15,9 @@ from rich.markup import escape
 from rich.table import Table
 
 from rheoclast.cli.console import INTERRUPTED, messages, progress_bar, screen
+from rheoclast.cli.options import FLAG
+from rheoclast.cli.options import folder as folder_named
+from rheoclast.cli.speech import whole_number
 from rheoclast.fits import CONFIDENCE
 from rheoclast.populations.breakage_rate import poisson_rate
 
@@ -34,22 +38,40 @@ COLUMNS = {"history": [*IN_HISTORIES, "parameters", DISSIPATION, *PASSAGE]}
 OTHER_COLUMNS = [*IN_FLOWS, "parameters", INITIATION_RATE]
 
 
+Output = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="<folder>",
+        parser=folder_named,
+        help="Folder for the results; by default named after the campaign.",
+        show_default=False,
+    ),
+]
+Workers = Annotated[
+    int | None,
+    typer.Option(
+        metavar="<integer>",
+        parser=whole_number,
+        help="Processes on this machine; by default one per core.",
+        show_default=False,
+    ),
+]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(
+        metavar="<address>",
+        help="Address of a scheduler of dask.distributed: work on its cluster instead.",
+        show_default=False,
+    ),
+]
+
+
 def survey_command(
     file: Annotated[Path, typer.Argument(help="Campaign, in TOML.", show_default=False)],
-    output: Annotated[
-        Path | None,
-        typer.Option(help="Folder for the results; by default named after the campaign.", show_default=False),
-    ] = None,
-    workers: Annotated[
-        int | None, typer.Option(help="Processes on this machine; by default one per core.", show_default=False)
-    ] = None,
-    scheduler: Annotated[
-        str | None,
-        typer.Option(
-            help="Address of a scheduler of dask.distributed: work on its cluster instead.", show_default=False
-        ),
-    ] = None,
-    retry: Annotated[bool, typer.Option("--retry", help="Do again what failed.")] = False,
+    output: Output = None,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+    retry: Annotated[bool, typer.Option("--retry", metavar=FLAG, help="Do again what failed.")] = False,
 ) -> None:
     """Break many aggregates: families, sizes, seeds and materials, in flows or turbulence, as a campaign file asks.
 
@@ -63,6 +85,14 @@ def survey_command(
         raise ImportError(f"survey needs the package {error.name}: pip install 'rheoclast[survey]'") from None
     campaign = read_campaign(file)
     folder = file.with_suffix("") if output is None else output
+    with _counted(folder) as progress, _reached(scheduler):
+        results = survey(campaign, folder, workers=workers, scheduler=scheduler, retry=retry, progress=progress)
+    _show(results, campaign.event)
+
+
+@contextmanager
+def _counted(folder: Path) -> Iterator[Callable[[int, int], None]]:
+    """A function progress(done, all) that draws a bar; where the work is interrupted, it is told how much is kept."""
     finished = [0, 0]
     try:
         with progress_bar() as bar:
@@ -71,12 +101,23 @@ def survey_command(
                 finished[:] = done, number
                 bar(f"{done} of {number} aggregates", done / number)
 
-            results = survey(campaign, folder, workers=workers, scheduler=scheduler, retry=retry, progress=progress)
+            yield progress
     except KeyboardInterrupt:
         kept = f"{finished[0]} of {finished[1]} aggregates are finished and kept in {folder}"
         messages.print(f"interrupted; {kept}; to go on, give the same command again", soft_wrap=True, markup=False)
         raise SystemExit(INTERRUPTED) from None
-    _show(results, campaign.event)
+
+
+@contextmanager
+def _reached(scheduler: str | None) -> Iterator[None]:
+    """Tell what to do about a scheduler that does not answer."""
+    try:
+        yield
+    except OSError as error:
+        if scheduler is None or "connect" not in str(error):
+            raise
+        reason = f"cannot be reached ({error})"
+        raise ConnectionError(f"--scheduler {scheduler}: {reason}; start it there, or correct the address") from None
 
 
 def _show(results: Survey, event: str) -> None:
@@ -89,17 +130,23 @@ def _show(results: Survey, event: str) -> None:
         f"{len(aggregates['task'].unique())} aggregates, {materials} material{'s' * (materials > 1)}, "
         f"{events.num_rows} events"
     )
-    if reasons:
-        screen.print(f"[red]failed: {reasons.total()}[/red] (column failure of {escape(results.aggregates.name)})")
-        for reason, number in reasons.most_common(MOST_REASONS):
-            screen.print(f"  {number} × {reason}", markup=False)
     if events.num_rows:
-        for table in _breakage_rates(events) if event == "history" else _initiation_rates(events):
+        for title, table in _breakage_rates(events) if event == "history" else _initiation_rates(events):
+            screen.print(escape(title), soft_wrap=True)
             screen.print(table)
     screen.print(f"written to {results.events} and {results.aggregates}", soft_wrap=True, markup=False)
+    if reasons:
+        _show_failures(reasons, results.aggregates.name)
 
 
-def _initiation_rates(events: pa.Table) -> Iterator[Table]:
+def _show_failures(reasons: Counter[str], file: str) -> None:
+    """Print how many aggregates came to nothing, and why, where it is not overlooked."""
+    screen.print(f"[red]failed: {reasons.total()}[/red] (column failure of {escape(file)})", soft_wrap=True)
+    for reason, number in reasons.most_common(MOST_REASONS):
+        screen.print(f"  {number} × {reason}", soft_wrap=True, markup=False)
+
+
+def _initiation_rates(events: pa.Table) -> Iterator[tuple[str, Table]]:
     """Quantiles of the rate of the flow at the first failure, by kind of aggregate, material and flow."""
     kinds = [*IN_FLOWS, "parameters"]
     groups = events.group_by(kinds, use_threads=False).aggregate([(INITIATION_RATE, "list")])
@@ -114,7 +161,7 @@ def _quantiles(rates: FloatArray) -> tuple[str, ...]:
     return str(len(rates)), *(f"{value:.3g}" for value in values)
 
 
-def _breakage_rates(events: pa.Table) -> Iterator[Table]:
+def _breakage_rates(events: pa.Table) -> Iterator[tuple[str, Table]]:
     """First failures over the time in which they may have happened; those overloaded from the start have none."""
     kinds = [*IN_HISTORIES, "parameters", DISSIPATION]
     groups = events.group_by(kinds, use_threads=False).aggregate([(name, "sum") for name in PASSAGE])
@@ -129,8 +176,8 @@ def _breakage_rates(events: pa.Table) -> Iterator[Table]:
 
 def _tables(
     kinds: pa.Table, titled: Sequence[str], title: str, headings: Sequence[str], cells: Iterable[tuple[str, ...]]
-) -> Iterator[Table]:
-    """A table for everything that stands in the columns `titled`, with the parameters in which its rows differ."""
+) -> Iterator[tuple[str, Table]]:
+    """A title and a table for all that stands in the columns `titled`, with the parameters in which its rows differ."""
     together = defaultdict(list)
     for kind, row in zip(kinds.to_pylist(), cells, strict=True):
         together[tuple(kind[name] for name in titled)].append((json.loads(kind["parameters"]), row))
@@ -138,7 +185,7 @@ def _tables(
         shown = {name: [_shown(each.get(name)) for each, _ in own] for parameters, _ in own for name in parameters}
         differing = {name: values for name, values in shown.items() if len(set(values)) > 1}
         rows = [(*values, *row) for *values, (_, row) in zip(*differing.values(), own, strict=True)]
-        yield _table(f"{', '.join(names)}: {title}", (*differing, *headings), rows)
+        yield f"{', '.join(names)}: {title}", _table((*differing, *headings), rows)
 
 
 def _shown(value: Any) -> str:
@@ -154,8 +201,8 @@ def _breakage_rate(failures: int, time: float) -> tuple[str, str, str]:
     return str(failures), f"{found.rate:.3g}", f"{lower:.3g} to {upper:.3g}"
 
 
-def _table(title: str, headings: Iterable[str], rows: Iterable[tuple[str, ...]]) -> Table:
-    table = Table(title=escape(title), title_justify="left")
+def _table(headings: Iterable[str], rows: Iterable[tuple[str, ...]]) -> Table:
+    table = Table()
     for k, heading in enumerate(headings):
         table.add_column(heading, justify="right" if k else "left", no_wrap=True)
     for row in rows:

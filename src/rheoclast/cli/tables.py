@@ -122,8 +122,8 @@ def _fractal_dimension(aggregate: Aggregate) -> dict[str, Any] | None:
     return {"value": found.dimension, "interval": list(found.interval)}
 
 
-def stress_summary(analysis: Analysis, units: Units) -> dict[str, Any]:
-    """Everything that the command reports, ready for JSON."""
+def stress_summary(analysis: Analysis, units: Units, flow: str) -> dict[str, Any]:
+    """What the command reports of a flow known by a name, ready for JSON."""
     loads = analysis.contact_loads
     most = int(loads.tension.argmax())
     model = analysis.response.model
@@ -137,7 +137,7 @@ def stress_summary(analysis: Analysis, units: Units) -> dict[str, Any]:
             "order": analysis.response.order,
             "viscosity_Pa_s": analysis.response.viscosity,
         },
-        "flow": {"gradient_per_s": analysis.flow.gradient.tolist(), "rate_per_s": analysis.flow.rate},
+        "flow": {"name": flow, "gradient_per_s": analysis.flow.gradient.tolist(), "rate_per_s": analysis.flow.rate},
         "most_tensioned": {
             "contact": most,
             "pair": analysis.aggregate.pairs[most].tolist(),
@@ -153,20 +153,21 @@ def stress_summary(analysis: Analysis, units: Units) -> dict[str, Any]:
         "given_orientation": _failure(analysis, analysis.given, units),
         "worst_orientation": _failure(analysis, analysis.worst, units),
         "units": units.names._asdict(),
+        "scales": units.sizes(analysis.flow.rate),
     }
 
 
 def _failure(analysis: Analysis, first: Initiation, units: Units) -> dict[str, Any]:
     if first.contact is None:
-        return {"contact": None, "critical_rate": None}
+        return {"contact": None, "initiation_rate": None}
     aggregate = analysis.aggregate
     strength = analysis.bonds.strength(len(aggregate.pairs))[first.contact, 0]
     return {
         "contact": first.contact,
         "pair": aggregate.pairs[first.contact].tolist(),
         "criterion": first.criterion,
-        "critical_rate": first.rate / units.rate,
-        "critical_rate_error": rate_error(analysis.table, analysis.bonds, first),
+        "initiation_rate": first.rate / units.rate,
+        "initiation_rate_error": rate_error(analysis.table, analysis.bonds, first),
         "pull_off_force": float(strength) / units.force,
         "radial_position": float(radial_position(aggregate, aggregate.contact_points[first.contact])),
         "flow_gradient_per_s": first.flow.gradient.tolist(),

@@ -126,8 +126,8 @@ def _group(group: Group) -> str:
 def _note(result: Result) -> str:
     """At which rate the loads are those of the intact aggregate."""
     if not result.is_breakup:
-        return f"Loads in the flow as given, at the rate {written(result.flow.rate, '1/s')}."
-    rate = written(result.summary["contact_loads_at_rate_per_s"], "1/s")
+        return f"Loads in the flow as given, at the rate {written(result.flow.rate, result.units['flow_rate'])}."
+    rate = written(result.summary["contact_loads_at_rate_per_s"], result.units["flow_rate"])
     if result.failures:
         return f"Loads of the whole aggregate at the initiation rate, {rate}."
     return f"Loads of the whole aggregate at the rate {rate}."

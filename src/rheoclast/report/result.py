@@ -19,7 +19,6 @@ from rheoclast.io.csv_table import named_rows
 from rheoclast.io.files import TextFile, load
 
 Table = Mapping[str, NDArray[Any]]
-SI_UNITS = {"length": "m", "force": "N", "moment": "N m", "rate": "1/s"}
 NEEDED = ("summary.json", "contacts.csv", "spheres.csv")
 CONTACT_COLUMNS = ("i", "j", "point_x", "point_y", "point_z", "tension", "shear", "bending", "twisting", "load_ratio")
 FORCES, MOMENTS = ("tension", "shear", "worst_tension"), ("bending", "twisting")
@@ -32,12 +31,15 @@ PIECE_COLUMNS = (
     *("piece", "parent", "generation", "spheres", "contacts", "radius_of_gyration", "holds", "failures"),
     *("initiation_rate", "breakup_rate"),
 )
-STRESS_KEYS = ("aggregate", "model", "flow", "largest", "most_tensioned", "given_orientation", "worst_orientation")
+STRESS_KEYS = (
+    *("aggregate", "model", "flow", "contact_law", "largest", "most_tensioned"),
+    *("given_orientation", "worst_orientation", "units"),
+)
 BREAK_KEYS = (
     *("spheres", "contacts", "mean_coordination", "radius_of_gyration_m", "model", "order", "viscosity_Pa_s"),
     *("orientation", "flow_gradient_per_s", "flow_rate_per_s", "contact_loads_at_rate_per_s", "rule", "criterion"),
     *("outcome", "initiation_rate_per_s", "initiation_rate_error", "breakup_rate_per_s", "failures", "surface"),
-    *("inwardness", "near_ties", "fragments"),
+    *("inwardness", "near_ties", "fragments", "contact_law", "seed", "up_to_per_s", "units"),
 )
 _UNIT_TAG = re.compile(r"_(?:m|N|Nm|per_s)(?=_[xyz]$|$)")
 
@@ -77,8 +79,9 @@ class Result:
 
     @property
     def units(self) -> Mapping[str, str]:
-        """Names of the units of length, force, moment and rate."""
-        return self.summary.get("units", SI_UNITS)
+        """Names of the units of length, force, moment and others; empty where there are none."""
+        units: Mapping[str, str] = self.summary["units"]
+        return units
 
     @property
     def flow(self) -> LinearFlow:

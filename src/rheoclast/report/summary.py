@@ -62,6 +62,7 @@ def _stress(result: Result) -> Summary:
     groups = (
         Group("Aggregate", _shape(shape, units)),
         Group("Flow", _liquid(result)),
+        Group("Strength of contacts", _contacts(told["contact_law"], units)),
         Group("Loads", loads),
     )
     return Summary(lead, _stress_figures(result), groups)
@@ -74,8 +75,8 @@ def _stress_figures(result: Result) -> tuple[Figure, ...]:
     place = f"contact {most['contact']}, spheres {pair}" if tension > 0 else "no contact is pulled apart"
     ratio = float(result.contacts["load_ratio"].max())
     return (
-        _critical("Critical rate, as it lies", told["given_orientation"], units["rate"]),
-        _critical("Critical rate, worst orientation", told["worst_orientation"], units["rate"]),
+        _critical("Initiation rate, as it lies", told["given_orientation"], units["rate"]),
+        _critical("Initiation rate, worst orientation", told["worst_orientation"], units["rate"]),
         Figure("Largest tension", _largest("tension", tension, units), place),
         Figure("Largest load over strength", written(ratio, digits=3), "fails at 1"),
     )
@@ -83,16 +84,35 @@ def _stress_figures(result: Result) -> tuple[Figure, ...]:
 
 def _at_rate(result: Result) -> str:
     name, rate = flow_name(result.flow), result.flow.rate
-    return f"{name} of rate {written(rate, '1/s')}" if rate else name
+    return f"{name} of rate {written(rate, result.units['flow_rate'])}" if rate else name
 
 
 def _liquid(result: Result) -> tuple[tuple[str, str], ...]:
     model = result.summary["model"]
     return (
         ("Flow", _at_rate(result)),
-        ("Velocity gradient", f"{matrix(result.flow.gradient)} 1/s"),
-        ("Viscosity", written(model["viscosity_Pa_s"], "Pa s")),
+        ("Velocity gradient", f"{matrix(result.flow.gradient)} {result.units['flow_rate']}".rstrip()),
+        ("Viscosity", written(model["viscosity_Pa_s"], result.units["viscosity"])),
         ("Hydrodynamics", _model(model["name"], model["order"])),
+    )
+
+
+def _contacts(told: Mapping[str, Any], units: Mapping[str, str]) -> tuple[tuple[str, str], ...]:
+    """What holds the contacts; in SI units, unless the lengths have none."""
+    given = {
+        "Young's modulus": (told["youngs_modulus_Pa"], "Pa"),
+        "Poisson's ratio": (told["poisson_ratio"], ""),
+        "Work of adhesion": (told["work_of_adhesion_J_m2"], "J/m²"),
+        "Friction": (told["friction"], ""),
+        "Rolling distance": (told["rolling_distance_m"], "m"),
+    }
+    si = bool(units["length"])
+    ends = dict.fromkeys(written(end, "N" if si else "") for end in told["pull_off_N"])
+    law = "explicit stiffness" if told["law"] is None else f"{told['material']}, law {told['law']}"
+    return (
+        ("Contacts", law),
+        ("Pull-off force", " to ".join(ends) + (", as given" if told["pull_off_given"] else "")),
+        *((label, written(value, unit if si else "")) for label, (value, unit) in given.items() if value is not None),
     )
 
 
@@ -111,11 +131,13 @@ def _largest(load: str, value: float, units: Mapping[str, str]) -> str:
 
 
 def _critical(label: str, failure: Mapping[str, Any], unit: str) -> Figure:
-    error = failure.get("critical_rate_error")
+    error = failure.get("initiation_rate_error")
     if failure["contact"] is None or (error or 0.0) > MEANINGLESS:
         return Figure(label, "none", "no contact is pulled apart")
     note = f"contact {failure['contact']}, by {failure['criterion']}"
-    return Figure(label, written(failure["critical_rate"], unit), note if error is None else f"{_error(error)}; {note}")
+    return Figure(
+        label, written(failure["initiation_rate"], unit), note if error is None else f"{_error(error)}; {note}"
+    )
 
 
 def _error(share: float) -> str:
@@ -143,17 +165,22 @@ def _breakup(result: Result) -> Summary:
     lead = f"{_size(told['spheres'], told['contacts'])} in {kind}, which is made faster from rest: {_outcome(told)}."
     flow = (
         ("Flow", kind),
-        ("Orientation", told["orientation"]),
+        ("Orientation", told["orientation"] if told["seed"] is None else f"random, seed {told['seed']}"),
         ("Velocity gradient, over its rate", matrix(result.flow.gradient / result.flow.rate)),
-        ("Viscosity", written(told["viscosity_Pa_s"], "Pa s")),
+        ("Viscosity", written(told["viscosity_Pa_s"], result.units["viscosity"])),
         ("Hydrodynamics", _model(told["model"], told["order"])),
     )
     aggregate = (
         ("Spheres", str(told["spheres"])),
         ("Contacts", f"{told['contacts']}, {written(told['mean_coordination'], digits=3)} per sphere on average"),
-        ("Radius of gyration", written(told["radius_of_gyration_m"], "m")),
+        ("Radius of gyration", written(told["radius_of_gyration_m"], result.units["length"])),
     )
-    groups = (Group("Aggregate", aggregate), Group("Flow", flow), Group("Breakup", _course(told)))
+    groups = (
+        Group("Aggregate", aggregate),
+        Group("Flow", flow),
+        Group("Strength of contacts", _contacts(told["contact_law"], told["units"])),
+        Group("Breakup", _course(told)),
+    )
     return Summary(lead, _breakup_figures(told), groups)
 
 
@@ -161,13 +188,13 @@ def _breakup_figures(told: Mapping[str, Any]) -> tuple[Figure, ...]:
     error, ties = told["initiation_rate_error"], told["near_ties"]
     held = told.get("cascade")
     first, last = told["initiation_rate_per_s"], told["breakup_rate_per_s"]
-    sizes = told["fragments"]
+    sizes, unit = told["fragments"], told["units"]["rate"]
     return (
-        Figure("Initiation rate", _rate(first), "" if error is None else _error(error)),
-        Figure("Breakup rate", _rate(last), _compared(first, last)),
+        Figure("Initiation rate", _rate(first, unit), "" if error is None else _error(error)),
+        Figure("Breakup rate", _rate(last, unit), _compared(first, last)),
         Figure("Failed contacts", str(told["failures"]), f"{ties} of them near ties" if ties else ""),
-        Figure("Fragments", str(len(sizes)), _sizes(sizes)),
-        *([] if held is None else [_held(held)]),
+        Figure("Fragments" if held is None else "Fragments of the first split", str(len(sizes)), sizes_in_words(sizes)),
+        *([] if held is None else [_held(held, unit)]),
     )
 
 
@@ -178,14 +205,14 @@ def _compared(first: float | None, last: float | None) -> str:
     return "with the first failure" if last == first else f"{written(last / first)} × initiation rate"
 
 
-def _held(cascade: Mapping[str, Any]) -> Figure:
+def _held(cascade: Mapping[str, Any], unit: str) -> Figure:
     """What is left once the fragments have been broken too."""
     sizes = cascade["sizes"]
-    return Figure(f"Pieces that hold at {written(cascade['rate_per_s'], '1/s')}", str(len(sizes)), _sizes(sizes))
+    return Figure(f"Pieces that hold at {written(cascade['rate_per_s'], unit)}", str(len(sizes)), sizes_in_words(sizes))
 
 
-def _rate(rate: float | None) -> str:
-    return "none" if rate is None else written(rate, "1/s")
+def _rate(rate: float | None, unit: str) -> str:
+    return "none" if rate is None else written(rate, unit)
 
 
 def _outcome(told: Mapping[str, Any]) -> str:
@@ -205,6 +232,8 @@ def _course(told: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
         ("A contact fails by", told["criterion"]),
         ("Fracture surface", f"{told['surface']} of {told['failures']} failed contacts"),
     ]
+    if told["up_to_per_s"] is not None:
+        rows.append(("Largest rate", written(told["up_to_per_s"], told["units"]["rate"])))
     if told["inwardness"] is not None:
         rows.append(("Inwardness", f"{written(told['inwardness'], digits=2)} (1: from the outside in, 0: no order)"))
     if told["near_ties"] is not None:
@@ -212,8 +241,8 @@ def _course(told: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
             ("Near ties", f"{told['near_ties']} failures whose place is within the error of the multipole order")
         )
     if "cascade" in told:
-        rate, sizes = written(told["cascade"]["rate_per_s"], "1/s"), told["cascade"]["sizes"]
-        rows.append((f"Hold at {rate}", f"{counted(len(sizes), 'piece')}: {_sizes(sizes)}"))
+        rate, sizes = _rate(told["cascade"]["rate_per_s"], told["units"]["rate"]), told["cascade"]["sizes"]
+        rows.append((f"Hold at {rate}", f"{counted(len(sizes), 'piece')}: {sizes_in_words(sizes)}"))
     return tuple(rows)
 
 
@@ -221,11 +250,14 @@ def _size(spheres: int, contacts: int) -> str:
     return f"{counted(spheres, 'sphere')} with {counted(contacts, 'contact')}"
 
 
-def _sizes(sizes: Sequence[int]) -> str:
-    """Numbers of spheres, equal ones counted."""
+def sizes_in_words(sizes: Sequence[int]) -> str:
+    """Numbers of spheres, equal ones counted: "2 × 50, 20 and 1 spheres"."""
     counts = Counter(sizes)
     shown = [f"{counts[size]} × {size}" if counts[size] > 1 else str(size) for size in sorted(counts, reverse=True)]
-    return ", ".join(shown[:MOST_SIZES]) + (", …" if len(shown) > MOST_SIZES else "") + " spheres"
+    if len(shown) > MOST_SIZES:
+        return f"{', '.join(shown[:MOST_SIZES])}, … spheres"
+    listed = " and ".join([", ".join(shown[:-1]), shown[-1]] if shown[1:] else shown)
+    return f"{listed} sphere{'s' * (listed != '1')}"
 
 
 def _model(name: str, order: int | None) -> str:

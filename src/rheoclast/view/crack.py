@@ -213,6 +213,8 @@ def _write_failures(axes: Axes, breakup: Breakup, rate_unit: str | None) -> None
         text = f"first at rate {first}, no split"
     elif len(rates) == 1:
         text = f"at rate {first}, which splits it"
+    elif max(rates) == rates[0]:
+        text = f"first at rate {first}, and splits at once"
     else:
         text = f"first at rate {first}, split at {max(rates) / rates[0]:.3g} times that"
     _above(axes, text, 11, labels.TINY, labels.FAINT_INK)

@@ -161,7 +161,7 @@ def test_summary_of_histories_has_the_breakage_rate_of_every_family_and_dissipat
                 continue
             rate = rc.breakage_rate(rc.WaitingTimes(*([row[name] for row in lasting] for name in ("time_s", "failed"))))
             interval = " to ".join(f"{bound:.3g}" for bound in rate.interval)
-            assert shown_row[3:] == [str(rate.failures), f"{rate.rate:.3g}", interval]
+            assert shown_row[3:] == [str(rate.events), f"{rate.rate:.3g}", interval]
     assert next(lines, None) is None
 
 

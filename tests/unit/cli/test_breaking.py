@@ -2,6 +2,8 @@
 
 import csv
 import json
+import re
+import shlex
 
 import numpy as np
 import pytest
@@ -99,7 +101,8 @@ def test_screen(run, compact):
 @pytest.mark.parametrize("orientation", ["worst", "orbit", "random"])
 def test_orientation(run, compact, orientation):
     given = json.loads(run("break", compact, "--json")[1])
-    turned = json.loads(run("break", compact, "--orientation", orientation, "--seed", 3, "--json")[1])
+    seed = ["--seed", 3] if orientation == "random" else []
+    turned = json.loads(run("break", compact, "--orientation", orientation, *seed, "--json")[1])
     gradient = np.array(turned["flow_gradient_per_s"])
     np.testing.assert_allclose(np.linalg.norm(gradient), 1, rtol=1e-9)
     assert turned["initiation_rate_per_s"] != given["initiation_rate_per_s"]
@@ -120,6 +123,93 @@ def test_cascade(run, compact, tmp_path):
     pieces = rows(tmp_path / "out" / "pieces.csv")
     assert [int(row["parent"]) for row in pieces] == expected.table()["parent"].tolist()
     assert len(list((tmp_path / "out").glob("fragment_*.dat"))) == len(expected.remaining)
+
+
+@pytest.mark.parametrize("cascade", [[], ["--cascade"]])
+def test_fragments_have_the_same_numbers_in_all_files(run, compact, tmp_path, cascade):
+    rate = 4 * json.loads(run("break", compact, "--json")[1])["breakup_rate_per_s"]
+    report = json.loads(run("break", compact, "--rate", rate, *cascade, "--json", "--output", "out")[1])
+    spheres, fragments = rows(tmp_path / "out" / "spheres.csv"), rows(tmp_path / "out" / "fragments.csv")
+    assert [int(row["spheres"]) for row in fragments] == (
+        report["cascade"]["sizes"] if cascade else report["fragments"]
+    )
+    assert len(fragments) > (2 if cascade else 1)
+    digits = len(str(len(fragments)))
+    for fragment in fragments:
+        own = [row for row in spheres if row["fragment"] == fragment["fragment"]]
+        assert len(own) == int(fragment["spheres"])
+        alone = rc.read_spheres(tmp_path / "out" / f"fragment_{int(fragment['fragment']):0{digits}d}.dat")
+        places = [[float(row[f"{axis}_m"]) for axis in "xyz"] for row in own]
+        np.testing.assert_allclose(sorted(places), sorted(alone.centers.tolist()), rtol=0, atol=1e-20)
+    first = [row.get("first_fragment", row["fragment"]) for row in spheres]
+    assert [first.count(str(k + 1)) for k in range(len(report["fragments"]))] == report["fragments"]
+    assert ("first_fragment" in spheres[0]) == bool(cascade)
+
+
+def test_summary_tells_what_the_contacts_were_and_how_to_repeat(run, compact):
+    numbers = ["--friction", 0.3, "--rolling-distance", 1e-9, "--work-of-adhesion", 0.03, "--up-to", 1e9]
+    out = run("break", compact, *numbers, "--orientation", "random", "--seed", 5, "--json")[1]
+    report = json.loads(out)
+    aggregate, polystyrene = rc.read(compact), rc.MATERIALS["polystyrene"]
+    law = rc.JKR(rc.Material(polystyrene.youngs_modulus, polystyrene.poisson_ratio, 0.03), 0.3, 1e-9)
+    strength = law.bonds(aggregate).tensile_strength
+    told = report["contact_law"]
+    assert told.pop("pull_off_N") == pytest.approx([strength.min(), strength.max()])
+    assert told == {
+        "law": "jkr",
+        "material": "polystyrene",
+        "youngs_modulus_Pa": polystyrene.youngs_modulus,
+        "poisson_ratio": polystyrene.poisson_ratio,
+        "work_of_adhesion_J_m2": 0.03,
+        "pull_off_given": False,
+        "stiffness": None,
+        "friction": 0.3,
+        "rolling_distance_m": 1e-9,
+    }
+    assert (report["seed"], report["up_to_per_s"], report["flow_name"]) == (5, 1e9, "shear")
+    assert report["initiation_rate_error"] is None or report["initiation_rate_error"] > 0
+    program, *words = shlex.split(report["command"])
+    assert program == "rheoclast"
+    assert run(*words)[1] == out
+
+
+def test_explicit_stiffness_has_no_material(run, compact):
+    law = ["--stiffness", 1, 2, 3e-13, 4e-13, "--pull-off", 1e-9]
+    told = json.loads(run("break", compact, *law, "--json")[1])["contact_law"]
+    assert (told["law"], told["material"], told["youngs_modulus_Pa"]) == (None, None, None)
+    assert told["stiffness"] == [1, 2, 3e-13, 4e-13]
+    assert told["pull_off_N"] == pytest.approx([1e-9, 1e-9])
+    assert "explicit stiffness" in run("break", compact, *law)[1]
+
+
+def test_screen_tells_what_was_computed(run, compact):
+    out = run("break", compact, "--flow", "planar", "--pull-off", 1e-8, "--order", 3, "--viscosity", 2e-3)[1]
+    found = {row[0]: row[1] for row in re.findall(r"│ ([a-z][a-z -]+?) +│ (.+?) +│", out)}
+    assert found["model"] == "StokesianDynamics, order 3"
+    assert found["viscosity"] == "0.002 Pa s"
+    assert found["flow"] == "planar, made faster from rest"
+    assert found["contacts"] == "polystyrene, law jkr"
+    assert found["pull-off force"] == "10.0 nN, as given"
+    report = run("break", compact, "--flow", "planar", "--pull-off", 1e-8, "--order", 3, "--viscosity", 2e-3, "--json")
+    error = json.loads(report[1])["initiation_rate_error"]
+    assert found["initiation rate"].endswith(f"1/s, ± {error:.1%} from the multipole order")
+
+
+def test_cascade_of_a_given_orientation_is_no_measure_of_strength(run, compact):
+    arguments = ["--rate", 1e9, "--cascade"]
+    warned = "what holds may only lie well; for what holds in the end take --orientation worst or orbit"
+    assert warned in run("break", compact, *arguments)[1]
+    assert warned not in run("break", compact, *arguments, "--orientation", "worst")[1]
+
+
+def test_without_units_nothing_has_one(run, tmp_path):
+    (tmp_path / "chain.dat").write_text("0 0 0 1\n2 0 0 1\n4 0 0 1\n4 2 0 1\n")
+    given = ["--unit", "dimensionless", "--viscosity", 1, "--pull-off", 1, "--rate", 1, "--cascade", "--output", "out"]
+    status, out, err = run("break", "chain.dat", *given)
+    assert (status, err) == (0, "")
+    assert not re.search(r"\d (a|f|p|n|µ|m)?(m|N|Pa|1/s|s)\b", out)
+    for path in (tmp_path / "out").glob("*.csv"):
+        assert not re.search(r"_(m|N|Nm|per_s)\b", path.read_text().splitlines()[0]), path
 
 
 def test_fewer_fragments_leave_none_of_an_earlier_run(run, compact, tmp_path):
@@ -161,7 +251,10 @@ def test_files_of_others_stay(run, compact, tmp_path):
 
 
 def test_film_without_a_folder(run, compact):
-    assert "--animation: the film is written to a folder; give --output" in run("break", compact, "--animation")[2]
+    assert (
+        "--animation: has no effect without --output; leave it out, or add --output"
+        in run("break", compact, "--animation")[2]
+    )
 
 
 def test_up_to(run, compact):
@@ -176,7 +269,7 @@ def test_up_to(run, compact):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--cascade"], "--cascade: fragments break at the rate of the flow; give --rate or --gradient"),
+        (["--cascade"], "--cascade: fragments break at the rate of the flow; add --rate or --gradient"),
         (["--gradient", "0 -1 0 1 0 0 0 0 0"], "flow: expected a strain rate that is not zero, got none"),
         (
             ["--criterion", "rolling"],

@@ -21,6 +21,9 @@ from rheoclast.cli.results import FILES
 CLUSTERS = Path(__file__).parents[3] / "examples" / "clusters"
 EQUAL, POLYDISPERSE = CLUSTERS / "fracval_n300_df1.8.dat", CLUSTERS / "fracval_n200_df1.9_polydisperse.dat"
 
+KINDS = ("unit", "name", "number", "9 numbers", "4 numbers", "integer", "file", "folder", "address", "bool")
+"""What the values of options are called; bool stands at --help, which Typer writes itself."""
+
 
 @pytest.fixture
 def run(capsys):
@@ -57,7 +60,7 @@ class TestStress:
         assert report["aggregate"]["contacts"] == spheres - 1
         assert report["aggregate"]["hyperstaticity"] == 0
         given, worst = report["given_orientation"], report["worst_orientation"]
-        assert 0 < worst["critical_rate"] <= given["critical_rate"]
+        assert 0 < worst["initiation_rate"] <= given["initiation_rate"]
 
     def test_agrees_with_the_library(self, run):
         _, out, _ = run("stress", POLYDISPERSE, "--unit", "nm", "--flow", "uniaxial", "--rate", 1e5, "--json")
@@ -69,7 +72,7 @@ class TestStress:
         carried = rc.contact_loads(floc, response.loads(flow), bonds)
         assert report["largest"]["tension"] == pytest.approx(carried.tension.max(), rel=1e-9)
         ratio = (carried.tension / bonds.tensile_strength).max()
-        assert report["given_orientation"]["critical_rate"] == pytest.approx(1e5 / ratio, rel=1e-9)
+        assert report["given_orientation"]["initiation_rate"] == pytest.approx(1e5 / ratio, rel=1e-9)
 
     def test_the_failing_contact_reaches_its_strength_at_the_critical_rate(self, run, small):
         _, out, _ = run("stress", small, "--unit", "um", "--rate", 10, "--json")
@@ -112,7 +115,7 @@ class TestStress:
         for load in ("tension", "compression", "shear", "bending"):
             assert one["largest"][load] == pytest.approx(two["largest"][load], rel=1e-9)
         for orientation in ("given_orientation", "worst_orientation"):
-            assert one[orientation]["critical_rate"] == pytest.approx(two[orientation]["critical_rate"], rel=1e-9)
+            assert one[orientation]["initiation_rate"] == pytest.approx(two[orientation]["initiation_rate"], rel=1e-9)
 
     def test_dimensionless_doublet(self, run, tmp_path):
         """The tension of a doublet is 35.903916 μa² per axial strain rate, and e_nn is the extension rate along z."""
@@ -121,18 +124,63 @@ class TestStress:
         _, out, _ = run("stress", path, "--unit", "nm", "--flow", "uniaxial", "--rate", 7, "--dimensionless", "--json")
         report = json.loads(out)
         assert report["largest"]["tension"] == pytest.approx(35.903916, rel=1e-7)
-        assert report["given_orientation"]["critical_rate"] == pytest.approx(1 / 35.903916, rel=1e-7)
+        assert report["given_orientation"]["initiation_rate"] == pytest.approx(1 / 35.903916, rel=1e-7)
 
     def test_options_of_the_contacts(self, run, small):
         def critical(*arguments):
             return json.loads(run("stress", small, "--unit", "um", *arguments, "--json")[1])["given_orientation"]
 
         assert critical("--pull-off", 1e-9)["pull_off_force"] == pytest.approx(1e-9)
-        assert critical("--work-of-adhesion", 0.04)["critical_rate"] == pytest.approx(2 * critical()["critical_rate"])
+        assert critical("--work-of-adhesion", 0.04)["initiation_rate"] == pytest.approx(
+            2 * critical()["initiation_rate"]
+        )
         properties = ["--youngs-modulus", 3.4e9, "--poisson-ratio", 0.33, "--work-of-adhesion", 0.02]
         assert critical("--material", "mine", *properties) == critical("--material", "polystyrene")
         stiff = critical("--stiffness", 1, 1, 1e-13, 1e-13, "--pull-off", 1e-9)
-        assert stiff["critical_rate"] == pytest.approx(critical("--pull-off", 1e-9)["critical_rate"])
+        assert stiff["initiation_rate"] == pytest.approx(critical("--pull-off", 1e-9)["initiation_rate"])
+
+    def test_scales_of_dimensionless_results(self, run, small):
+        arguments = ["stress", small, "--unit", "um", "--rate", 20, "--viscosity", 2e-3, "--json"]
+        scaled, si = (json.loads(run(*arguments, *more)[1]) for more in (["--dimensionless"], []))
+        scales, strength = scaled["scales"], si["contact_law"]["pull_off_N"]
+        assert si["scales"] == {}
+        assert scaled["contact_law"] == si["contact_law"]
+        assert scales == pytest.approx({"a_m": 1e-6, "G_per_s": 20, "F_N": strength[0]})
+        drag = 2e-3 * 20 * scales["a_m"] ** 2
+        assert scaled["largest"]["tension"] * drag == pytest.approx(si["largest"]["tension"])
+        unit = scales["F_N"] / (2e-3 * scales["a_m"] ** 2)
+        rates = [each["worst_orientation"]["initiation_rate"] for each in (scaled, si)]
+        assert rates[0] * unit == pytest.approx(rates[1])
+
+    def test_without_units_nothing_has_one(self, run, small):
+        given = ["--unit", "dimensionless", "--viscosity", 1, "--pull-off", 1]
+        status, out, err = run("stress", small, *given)
+        assert (status, err) == (0, "")
+        assert not re.search(r"\d (a|f|p|n|µ|m)?(m|N|Pa|1/s|s)\b", out)
+        report = json.loads(run("stress", small, *given, "--json")[1])
+        assert set(report["units"].values()) == {""}
+
+    def test_numbers_have_three_digits_and_no_rounding_noise(self, run, small):
+        """The chain lies in a plane, which nothing twists; what bends it is below the smallest prefix."""
+        out = run("stress", small, "--unit", "um")[1]
+        assert re.search(r"mean sphere radius +│ 1\.00 µm", out)
+        assert re.search(r"largest twisting +│ 0 N m", out)
+        assert re.search(r"largest bending +│ 4\.18e−20 N m", out)
+        assert "shape anisotropy" in out
+
+    def test_a_title_is_not_wrapped(self, run, small, monkeypatch):
+        monkeypatch.setenv("COLUMNS", "40")
+        long = small.with_name("a_name_that_is_longer_than_the_table_that_stands_below_it.dat")
+        small.rename(long)
+        assert str(long) in run("stress", long, "--unit", "um")[1].splitlines()
+
+    def test_smallest_and_largest_pull_off_force(self, run, tmp_path):
+        """They go with the reduced radius: 1/2 and 1/3 of a micrometre here."""
+        path = tmp_path / "three.dat"
+        path.write_text("0 0 0 1\n2 0 0 1\n3.5 0 0 0.5\n")
+        told = json.loads(run("stress", path, "--unit", "um", "--json")[1])["contact_law"]["pull_off_N"]
+        assert told == pytest.approx([1.5 * np.pi * 0.02 * radius for radius in (1e-6 / 3, 0.5e-6)])
+        assert "31.4 nN to 47.1 nN" in run("stress", path, "--unit", "um")[1]
 
     def test_free_draining(self, run, small):
         _, out, _ = run("stress", small, "--unit", "um", "--model", "free-draining", "--json")
@@ -149,12 +197,12 @@ class TestStress:
         np.testing.assert_allclose(written, expected.tension, rtol=1e-9)
         failure = json.loads(out)["given_orientation"]
         contact = failure["contact"]
-        assert failure["critical_rate_error"] == pytest.approx(expected.tension[contact] / tension[contact])
+        assert failure["initiation_rate_error"] == pytest.approx(expected.tension[contact] / tension[contact])
 
     def test_no_error_bars_without_lower_order(self, run, small):
         for arguments in (["--order", 1], ["--model", "free-draining"], ["--model", "exposed-area"]):
             _, out, _ = run("stress", small, "--unit", "um", *arguments, "--json")
-            assert json.loads(out)["given_orientation"]["critical_rate_error"] is None
+            assert json.loads(out)["given_orientation"]["initiation_rate_error"] is None
 
     def test_automatic_order(self, run, small):
         orders = [
@@ -296,7 +344,7 @@ class TestRefusals:
     def test_screen_without_unicode(self, small):
         command = [sys.executable, "-m", "rheoclast", "stress", str(small), "--unit", "um"]
         done = subprocess.run(command, capture_output=True, env={**os.environ, "PYTHONIOENCODING": "ascii"}, check=True)
-        assert b"critical rate" in done.stdout
+        assert b"initiation rate" in done.stdout
 
     def test_singular_frame(self, run, tmp_path):
         path = tmp_path / "triangle.dat"
@@ -345,6 +393,7 @@ class TestOtherCommands:
         status, out, _ = run("info", path, "--unit", "um", "--dimensionless", "--json")
         report = json.loads(out)
         assert status == 0
+        assert "isostatic" not in run("info", path, "--unit", "um")[1]
         assert report["hydrodynamic_radius"] == pytest.approx(1)
         assert report["intrinsic_viscosity"] == pytest.approx(2.5)
 
@@ -379,6 +428,27 @@ class TestOtherCommands:
         assert all(line.count("<") == line.count(">") for line in lines)
 
     @pytest.mark.parametrize(
+        "command",
+        [
+            "stress",
+            "info",
+            "break",
+            "survey",
+            "report",
+            "demo",
+            *(f"generate {name}" for name in rc.generation.FAMILIES),
+        ],
+    )
+    def test_help_speaks_no_python(self, run, command):
+        out = run(*command.split(), "--help")[1]
+        kinds = re.findall(r"^│ +--[a-z-]+ (?: *-h)? *(<.+?>)", out, re.M)
+        assert set(kinds) <= {f"<{kind}>" for kind in KINDS}
+        assert not re.search(r"LATTICES|[a-z]_[a-z]|`", out)
+        flags = [line for line in out.splitlines() if "<bool>" in line]
+        assert {line.split()[1] for line in flags} <= {"--help"}
+        assert out.count("─ Output ─") == (command != "survey")
+
+    @pytest.mark.parametrize(
         ("words", "completed"),
         [("br", ["break"]), ("stress f.dat --flow u", ["uniaxial"]), ("break f.dat --rule w", ["weakest"])],
     )
@@ -410,3 +480,22 @@ class TestProgress:
         captured = capsys.readouterr()
         assert "pair mobilities" in captured.err
         assert captured.out == ""
+
+    def test_says_when_it_compiles(self, capsys, monkeypatch):
+        from numba.core import event
+
+        monkeypatch.setattr("rheoclast.cli.console.SECONDS_WITHOUT_PROGRESS", 0.01)
+        monkeypatch.setattr("rheoclast.cli.console.messages", Console(stderr=True, force_terminal=True, width=120))
+        with progress_bar() as progress:
+            progress("pair mobilities", 0.5)
+            sleep(0.3)
+            event.start_event("numba:compile")
+            sleep(0.3)
+            event.end_event("numba:compile")
+            sleep(0.3)
+        told = capsys.readouterr().err
+        assert "pair mobilities, compiling (only the first time)" in told
+        assert re.search(r"pair mobilities (?!.*compiling)", told.rpartition("compiling")[2])
+        event.start_event("numba:compile")
+        event.end_event("numba:compile")
+        assert capsys.readouterr().err == ""

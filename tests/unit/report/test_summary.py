@@ -6,7 +6,7 @@ import pytest
 
 import rheoclast as rc
 from rheoclast.report.result import read_result
-from rheoclast.report.summary import summary
+from rheoclast.report.summary import sizes_in_words, summary
 
 
 def figures(folder):
@@ -17,14 +17,20 @@ def test_stress(stressed):
     told = json.loads((stressed / "summary.json").read_text())
     text = summary(read_result(stressed))
     assert text.lead.startswith("6 spheres with 5 contacts in simple shear of rate 1 × 10⁴ 1/s")
-    given = figures(stressed)["Critical rate, as it lies"]
+    given = figures(stressed)["Initiation rate, as it lies"]
     assert given.value.endswith("1/s")
     assert f"contact {told['given_orientation']['contact']}, by tension" in given.note
-    assert f"± {100 * told['given_orientation']['critical_rate_error']:.2g} % from the multipole order" in given.note
+    assert f"± {100 * told['given_orientation']['initiation_rate_error']:.2g} % from the multipole order" in given.note
     rows = {label: value for group in text.groups for label, value in group.rows}
     assert rows["Velocity gradient"] == "[0, 1 × 10⁴, 0; 0, 0, 0; 0, 0, 0] 1/s"
     assert rows["Largest compression"] == "none"
     assert rows["Hydrodynamics"] == "Stokesian dynamics, multipole order 2"
+    assert rows["Contacts"] == "polystyrene, law jkr"
+    assert rows["Young's modulus"] == "3.4 × 10⁹ Pa"
+    assert rows["Work of adhesion"] == "0.02 J/m²"
+    smallest, largest = told["contact_law"]["pull_off_N"]
+    assert rows["Pull-off force"] == f"{1e9 * smallest:.3g} nN to {1e9 * largest:.3g} nN"
+    assert "Friction" not in rows
 
 
 def test_breakup(broken):
@@ -47,7 +53,7 @@ def test_nothing_is_pulled_apart(results):
     assert "it stays whole" in summary(read_result(held)).lead
     assert figures(held)["Breakup rate"].value == "none"
     loaded = results("stress", doublet, "--unit", "um", "--flow", "uniaxial")
-    assert figures(loaded)["Critical rate, as it lies"].note == "no contact is pulled apart"
+    assert figures(loaded)["Initiation rate, as it lies"].note == "no contact is pulled apart"
 
 
 def test_liquid_at_rest(results):
@@ -59,7 +65,7 @@ def test_model_without_order(results):
     folder = results("stress", "0 0 0 1\n2 0 0 1\n", "--unit", "um", "--model", "free-draining")
     rows = {label: value for group in summary(read_result(folder)).groups for label, value in group.rows}
     assert rows["Hydrodynamics"] == "free draining"
-    assert "±" not in figures(folder)["Critical rate, as it lies"].note
+    assert "±" not in figures(folder)["Initiation rate, as it lies"].note
 
 
 def test_cascade(results):
@@ -68,6 +74,7 @@ def test_cascade(results):
     told = json.loads((folder / "summary.json").read_text())
     rows = {label: value for group in summary(read_result(folder)).groups for label, value in group.rows}
     assert rows["Hold at 1 × 10⁹ 1/s"].startswith(f"{len(told['cascade']['sizes'])} pieces: ")
+    assert figures(folder)["Fragments of the first split"].value == str(len(told["fragments"]))
     assert figures(folder)["Pieces that hold at 1 × 10⁹ 1/s"].value == str(len(told["cascade"]["sizes"]))
 
 
@@ -75,8 +82,8 @@ def test_rounding_errors_are_no_loads(results):
     """A doublet along a shear is not pulled apart; what the sum of its loads leaves is no tension."""
     folder = results("stress", "0 0 0 1\n2 0 0 1\n", "--unit", "um", "--rate", 1e5)
     found = figures(folder)
-    assert found["Critical rate, as it lies"].value == found["Largest tension"].value == "none"
-    assert found["Critical rate, worst orientation"].value.endswith("1/s")
+    assert found["Initiation rate, as it lies"].value == found["Largest tension"].value == "none"
+    assert found["Initiation rate, worst orientation"].value.endswith("1/s")
     rows = {label: value for group in summary(read_result(folder)).groups for label, value in group.rows}
     assert rows["Largest shear"].endswith("pN")
     assert rows["Largest twisting"] == "none"
@@ -92,3 +99,27 @@ def test_every_row_says_something(name, request):
     text = summary(read_result(request.getfixturevalue(name)))
     assert all(label and value for group in text.groups for label, value in group.rows)
     assert all(figure.label and figure.value for figure in text.figures)
+
+
+def test_contacts_as_given(results):
+    law = ["--stiffness", 1, 1, 1e-13, 1e-13, "--pull-off", 2e-9]
+    given = ["--orientation", "random", "--seed", 7, "--up-to", 1e9]
+    folder = results("break", "0 0 0 1\n2 0 0 1\n2 2 0 1\n", "--unit", "um", *law, *given)
+    rows = {label: value for group in summary(read_result(folder)).groups for label, value in group.rows}
+    assert (rows["Contacts"], rows["Pull-off force"]) == ("explicit stiffness", "2 nN, as given")
+    assert (rows["Orientation"], rows["Largest rate"]) == ("random, seed 7", "1 × 10⁹ 1/s")
+    assert "Young's modulus" not in rows
+
+
+def test_limits_of_contacts(results):
+    folder = results("break", "0 0 0 1\n2 0 0 1\n", "--unit", "um", "--friction", 0.3, "--rolling-distance", 1e-9)
+    rows = {label: value for group in summary(read_result(folder)).groups for label, value in group.rows}
+    assert (rows["Friction"], rows["Rolling distance"]) == ("0.3", "1 nm")
+
+
+def test_sizes_in_words():
+    assert sizes_in_words([1]) == "1 sphere"
+    assert sizes_in_words([60]) == "60 spheres"
+    assert sizes_in_words([1, 99]) == "99 and 1 spheres"
+    assert sizes_in_words([50, 1, 20, 50]) == "2 × 50, 20 and 1 spheres"
+    assert sizes_in_words(range(1, 30)).endswith("22, … spheres")

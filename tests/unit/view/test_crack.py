@@ -1,5 +1,6 @@
 """The picture of a breakup."""
 
+from dataclasses import replace
 from io import BytesIO
 
 import numpy as np
@@ -138,6 +139,14 @@ def test_rates_and_sizes_are_told():
     assert any(text.endswith(f"1/s, split at {ratio:.3g} times that") for text in shown)
     assert {"Ball", "rate / initiation rate", "first failure"} <= set(shown)
     assert {str(len(BALL_BROKEN.spheres[0])), f"{len(BALL_BROKEN.spheres[1])} spheres"} <= set(shown)
+
+
+def test_a_crack_that_runs_at_once_is_told():
+    """Later failures at lower rates than the first; and a tree, which one failure splits."""
+    falling = replace(
+        BALL_BROKEN, failures=tuple(replace(each, rate=1 / (k + 1)) for k, each in enumerate(BALL_BROKEN.failures))
+    )
+    assert any(text.endswith("1/s, and splits at once") for text in texts(draw_crack(falling, dots_per_inch=80)))
 
 
 def test_chart_shows_the_rate_of_every_failure():
