@@ -190,7 +190,7 @@ _TABLES = {
 
 def _parameters(asked: Mapping[str, Any]) -> Mapping[str, Collection[str]]:
     """Keys of the table of a family, if it is known."""
-    family = FAMILIES.get(asked.get("name", ""))
+    family = FAMILIES.get(str(asked.get("name")))
     return {} if family is None else {"": ("name", *(key for key in signature(family).parameters if key != SEED))}
 
 
