@@ -189,7 +189,7 @@ class FlowChoice:
         str | None,
         typer.Option(
             metavar="<9 numbers>",
-            help="Any velocity gradient instead: nine numbers in 1/s, row by row.",
+            help="Any velocity gradient instead: nine numbers in 1/s, row by row, in quotation marks.",
             rich_help_panel=FLOW,
             show_default=False,
         ),

@@ -33,7 +33,10 @@ WRONG_USE = (
     (r"^Argument '(.+?)' takes (\d+) values.*", r"\1: expected \2 values, got fewer"),
     (r"^Option '(.+?)' requires an argument.*", r"\1: expected a value behind it, got nothing"),
     (r"^Option '(.+?)' requires (\d+) arguments.*", r"\1: expected \2 values separated by spaces, got fewer"),
-    (r"^Got unexpected extra arguments? \((.+)\).*", r"expected nothing more, got \1"),
+    (
+        r"^Got unexpected extra argument(?:s|\(s\))? \((.+)\).*",
+        r"expected nothing more, got \1; quote what is one value",
+    ),
     (r"^No such (option|command):? '?([^\s']+?)'?\.?(?=\s|$)", r"there is no \1 \2"),
     (r"[\s(]+(?:Possible options:|Did you mean(?: one of:)?) *([^?()]+).*$", r"; did you mean \1?"),
 )

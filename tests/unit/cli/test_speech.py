@@ -95,7 +95,14 @@ def test_errors_of_the_system_and_of_arithmetic():
         ("No such command 'rong'. Did you mean 'ring'? (Did you mean one of: ring?)",
          "there is no command rong; did you mean ring?"),
         ("No such command 'stres'. Did you mean 'stress'?", "there is no command stres; did you mean stress?"),
-        ("Got unexpected extra argument (b.dat)", "expected nothing more, got b.dat; see rheoclast stress --help"),
+        (
+            "Got unexpected extra argument (b.dat)",
+            "expected nothing more, got b.dat; quote what is one value; see rheoclast stress --help",
+        ),
+        (
+            "Got unexpected extra argument(s) (1 0)",
+            "expected nothing more, got 1 0; quote what is one value; see rheoclast stress --help",
+        ),
         ("Invalid value for '--rate': expected a number, got 'x'",
          "--rate: expected a number, got 'x'; see rheoclast stress --help"),
     ],
