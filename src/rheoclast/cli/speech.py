@@ -35,7 +35,7 @@ WRONG_USE = (
     (r"^Option '(.+?)' requires (\d+) arguments.*", r"\1: expected \2 values separated by spaces, got fewer"),
     (
         r"^Got unexpected extra argument(?:s|\(s\))? \((.+)\).*",
-        r"expected nothing more, got \1; quote what is one value",
+        r"expected no more, got \1; quote what is one value",
     ),
     (r"^No such (option|command):? '?([^\s']+?)'?\.?(?=\s|$)", r"there is no \1 \2"),
     (r"[\s(]+(?:Possible options:|Did you mean(?: one of:)?) *([^?()]+).*$", r"; did you mean \1?"),

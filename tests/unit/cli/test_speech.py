@@ -97,11 +97,11 @@ def test_errors_of_the_system_and_of_arithmetic():
         ("No such command 'stres'. Did you mean 'stress'?", "there is no command stres; did you mean stress?"),
         (
             "Got unexpected extra argument (b.dat)",
-            "expected nothing more, got b.dat; quote what is one value; see rheoclast stress --help",
+            "expected no more, got b.dat; quote what is one value; see rheoclast stress --help",
         ),
         (
             "Got unexpected extra argument(s) (1 0)",
-            "expected nothing more, got 1 0; quote what is one value; see rheoclast stress --help",
+            "expected no more, got 1 0; quote what is one value; see rheoclast stress --help",
         ),
         ("Invalid value for '--rate': expected a number, got 'x'",
          "--rate: expected a number, got 'x'; see rheoclast stress --help"),
