@@ -143,7 +143,8 @@ def instance(name: str, value: object, kind: type | str, advice: str | None = No
         With the types expected and received, and what to do: the advice, by default that of `HOW_TO_MAKE`.
     """
     wanted = kind if isinstance(kind, str) else kind.__name__
-    if wanted not in [each.__name__ for each in type(value).__mro__]:
+    names = [each.__name__ for each in type(value).__mro__]
+    if not (wanted in names if isinstance(kind, str) else isinstance(value, kind)):
         got = f"the class {value.__name__}" if isinstance(value, type) else type(value).__name__
         raise TypeError(f"{name}: expected {wanted}, got {got}; {advice or HOW_TO_MAKE[wanted]}")
 

@@ -127,15 +127,16 @@ def contact_law(
     given = {name: value for name, value in limits.items() if value is not None}
     if pull_off is not None:
         _checks.positive("pull_off", pull_off)
-    if stiffness is not None:
-        return _explicit_law(stiffness, pull_off, given)
-    one_of("law", LAWS, law)
-    _refuse_untaken(given, f"law {law!r}", signature(LAWS[law]).parameters)
     properties = {
         "youngs_modulus": youngs_modulus,
         "poisson_ratio": poisson_ratio,
         "work_of_adhesion": work_of_adhesion,
     }
+    one_of("law", LAWS, law)
+    if stiffness is not None:
+        of_no_use = [name for name, value in properties.items() if value is not None]
+        return _explicit_law(stiffness, pull_off, [*given, *of_no_use])
+    _refuse_untaken(given, f"law {law!r}", signature(LAWS[law]).parameters)
     of_material = LAWS[law](_material(material, properties), **given)
     return of_material if pull_off is None else MeasuredPullOff(pull_off, of_material)
 

@@ -87,8 +87,8 @@ class TestContactLaw:
                 "stiffness: explicit stiffness needs the strength too; add pull_off$",
             ),
             (
-                {"stiffness": (1.0, 1.0, 1.0, 1.0), "pull_off": 1.0, "friction": 1.0, "rolling_distance": 1.0},
-                "friction, rolling_distance: explicit stiffness does not take this; leave one of them out$",
+                {"stiffness": (1.0, 1.0, 1.0, 1.0), "pull_off": 1.0, "friction": 1.0, "work_of_adhesion": 1.0},
+                "friction, work_of_adhesion: explicit stiffness does not take this; leave one of them out$",
             ),
         ],
     )

@@ -13,11 +13,11 @@ import numpy as np
 from rheoclast import _checks
 from rheoclast._checks import FloatArray, IntArray
 from rheoclast.breakup.contact_response import refuse_without_strain
-from rheoclast.breakup.crack import Rule, break_up
+from rheoclast.breakup.crack import Rule, break_up, refuse_unknown_rule
 from rheoclast.breakup.event import Breakup
-from rheoclast.breakup.orientation import Orientation, flow_met
+from rheoclast.breakup.orientation import Orientation, flow_met, refuse_unknown_orientation
 from rheoclast.flows import LinearFlow
-from rheoclast.hydrodynamics.response import RigidResponse, rigid_response
+from rheoclast.hydrodynamics.response import RigidResponse, refuse_other_spheres, rigid_response
 from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.criteria.criterion import Criterion
 from rheoclast.mechanics.criteria.load_ratios import EVERY_LIMIT
@@ -150,6 +150,9 @@ def cascade(
         If the orientation is not known, or as `break_up`.
     """
     refuse_without_strain(flow)
+    refuse_other_spheres(aggregate.spheres, response)
+    refuse_unknown_orientation(orientation)
+    refuse_unknown_rule(rule)
     pieces: list[Piece] = []
     waiting = deque([_Waiting(None, 0, aggregate, np.arange(len(aggregate)), bonds, response)])
     settled = 0

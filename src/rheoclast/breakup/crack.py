@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 
@@ -25,14 +25,19 @@ from rheoclast.hydrodynamics.truncation import LOWEST_ORDER, expected_error
 from rheoclast.loads import SphereLoads
 from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.criteria.criterion import Criterion
-from rheoclast.mechanics.criteria.load_ratios import EVERY_LIMIT, load_ratios, refuse_without_strength
+from rheoclast.mechanics.criteria.load_ratios import (
+    EVERY_LIMIT,
+    largest_ratios,
+    load_ratios,
+    refuse_without_strength,
+)
 from rheoclast.mechanics.loosened import LoosenableAggregate, LoosenedAggregate, loosenable
 from rheoclast.particles.aggregate import Aggregate
 from rheoclast.particles.morphology import depth, radial_position
 
 Rule = Literal["weakest", "overloaded"]
 ROUNDING = 1e-9  # of load ratios: what balance is held to
-NEGLIGIBLE = 1e-8  # of the largest load ratio that the contacts left had at first in any flow as strong
+NEGLIGIBLE = 1e-8  # of the largest load of any contact in any flow as strong
 ORDERS_COMPARED = 3
 
 
@@ -111,8 +116,7 @@ def break_up_each(
     ValueError, GeometryError, TypeError, ArithmeticError
         As `break_up`; what does not depend on the flow is refused at once.
     """
-    if rule not in ("weakest", "overloaded"):
-        raise ValueError(f"rule: expected 'weakest' or 'overloaded', got {rule!r}")
+    refuse_unknown_rule(rule)
     refuse_other_spheres(aggregate.spheres, response)
     refuse_without_strength(bonds, criterion)
     bonds.refuse_other_count(len(aggregate.pairs))
@@ -120,9 +124,16 @@ def break_up_each(
     intact = loosenable(aggregate, bonds)
     places = np.stack([place(aggregate, aggregate.contact_points) for place in (radial_position, depth)], axis=1)
     unit_loads = intact.loaded(response.strain_loads).loads
-    in_unit_strain = np.abs(load_ratios(unit_loads, bonds, criterion=criterion)).max(axis=(0, 2))
-    setting = _Setting(aggregate, bonds, criterion, rule, limit, response.order, intact, in_unit_strain, places)
+    force, moment = (float(np.abs(loads).max(initial=0.0)) for loads in (unit_loads.force, unit_loads.moment))
+    negligible = NEGLIGIBLE * largest_ratios(force, moment, bonds, criterion, len(aggregate.pairs))
+    setting = _Setting(aggregate, bonds, criterion, rule, limit, response.order, intact, negligible, places)
     return (_event(setting, response, flow) for flow in flows)
+
+
+def refuse_unknown_rule(rule: str) -> None:
+    """Refuse a rule that is none."""
+    if rule not in get_args(Rule):
+        raise ValueError(f"rule: expected {' or '.join(map(repr, get_args(Rule)))}, got {rule!r}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,12 +147,13 @@ class _Setting:
     up_to: float
     order: int | None
     intact: LoosenableAggregate
-    in_unit_strain: FloatArray
+    negligible: FloatArray
     places: FloatArray
 
-    def ratios(self, state: LoosenedAggregate) -> FloatArray:
-        """Load over strength (orders, C, criteria), zero where the contact is lost."""
-        return load_ratios(state.loads, self.bonds, criterion=self.criterion)
+    def ratios(self, state: LoosenedAggregate, strain_rate: float) -> FloatArray:
+        """Load over strength (orders, C, criteria), zero where the contact is lost or its load is rounding."""
+        ratios = load_ratios(state.loads, self.bonds, criterion=self.criterion)
+        return np.where(ratios > strain_rate * self.negligible[:, None], ratios, np.minimum(ratios, 0.0))
 
 
 def _event(setting: _Setting, response: RigidResponse, flow: LinearFlow) -> Breakup:
@@ -150,11 +162,11 @@ def _event(setting: _Setting, response: RigidResponse, flow: LinearFlow) -> Brea
     orders = [order.loads(flow) for order in response.by_order[-ORDERS_COMPARED:]]
     state = setting.intact.loaded(SphereLoads.stacked(orders))
     failures: list[Failure] = []
-    ratios = setting.ratios(state)
-    reached, usual = 0.0, np.linalg.norm(flow.strain_rate) * setting.in_unit_strain
+    strain_rate, reached = float(np.linalg.norm(flow.strain_rate)), 0.0
+    ratios = setting.ratios(state, strain_rate)
     while True:
-        largest, nothing = ratios[-1].max(axis=1), NEGLIGIBLE * np.delete(usual, state.lost).max()
-        if largest.max() <= nothing or flow.rate / largest.max() > setting.up_to:
+        largest = ratios[-1].max(axis=1)
+        if largest.max() <= 0 or flow.rate / largest.max() > setting.up_to:
             return _breakup(setting.aggregate, failures, np.zeros(len(setting.aggregate), np.intp))
         reached = max(reached, flow.rate / float(largest.max()))
         failing = _failing(largest, reached / flow.rate, setting.rule)
@@ -163,7 +175,7 @@ def _event(setting: _Setting, response: RigidResponse, flow: LinearFlow) -> Brea
             state = state.without(failing)
         except CollapseError as collapse:
             return _breakup(setting.aggregate, failures, collapse.parts)
-        ratios = setting.ratios(state)
+        ratios = setting.ratios(state, strain_rate)
 
 
 def _failing(largest: FloatArray, reached: float, rule: Rule) -> IntArray:

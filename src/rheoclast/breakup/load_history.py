@@ -23,6 +23,7 @@ MOST_SAMPLES = 10**8
 INSIDE = 9  # instants inside a span that is narrowed to the two parts next to the best of them
 NARROWINGS = 12  # of a span of two samples to 1e-8 of it: the square root of rounding, to which a peak can be told
 ROOT = 1e-12  # of the time between samples
+ROUNDING = 1e-12  # of a load ratio
 
 
 @dataclass(frozen=True)
@@ -214,13 +215,15 @@ def _record_peaks(times: FloatArray, largest: FloatArray) -> IntArray:
     """Positions (P,) of samples no lower than their neighbours, near which the load may be larger than ever before.
 
     The parabola through such a sample and its neighbours rises above it by at most 1/8 of its second derivative times
-    the square of the wider spacing. Four times as much is allowed for, and any rise at the ends.
+    the square of the wider spacing. Four times as much is allowed for, and any rise at the ends. What would rise by
+    rounding only, as a steady load does everywhere, is no peak.
     """
     spacing, rise = np.diff(times), np.diff(largest)
     top = np.append(True, rise > 0) & np.append(rise <= 0, True)
     bend = np.abs(np.diff(rise / spacing)) / (spacing[1:] + spacing[:-1])  # half the second derivative
     beyond = np.full(len(times), np.inf)
     beyond[1:-1] = bend * np.maximum(spacing[1:], spacing[:-1]) ** 2
+    top &= beyond > ROUNDING * np.abs(largest)
     return np.flatnonzero(top & (largest + beyond >= np.maximum.accumulate(largest)))
 
 

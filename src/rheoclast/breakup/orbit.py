@@ -78,8 +78,9 @@ def orbit_initiation(
     refuse_without_strain(flow)
     length = LONG / flow.magnitude if duration is None else duration
     orbit = trajectory(response, flow, duration=length, start=start)
-    worst = load_history(orbit, table, bonds, criterion=criterion).maximum
-    if not worst.ratio > 0:
+    history = load_history(orbit, table, bonds, criterion=criterion)
+    worst = history.maximum
+    if worst.ratio <= history.loads.ratios.rounding[worst.contact] * np.linalg.norm(flow.strain_rate):
         return OrbitInitiation(None, None, np.inf, flow, UNTURNED, 0.0, orbit)
     critical, rotation = orbit.flow(worst.time).scaled(1 / worst.ratio), _checks.frozen(orbit.rotation(worst.time).T)
     return OrbitInitiation(worst.contact, worst.criterion, critical.rate, critical, rotation, worst.time, orbit)

@@ -54,14 +54,21 @@ def flow_met(
     TypeError
         If an argument is something else.
     """
+    refuse_unknown_orientation(orientation)
     if not isinstance(orientation, str):
-        return flow.rotated(_checks.rotation_matrix("orientation", orientation))
-    if orientation not in get_args(Orientation):
-        known = ", ".join(map(repr, get_args(Orientation)))
-        raise ValueError(f"orientation: expected one of {known} or a rotation, got {orientation!r}")
+        return flow.rotated(orientation)
     if orientation == "given":
         return flow
     carried = contact_response(aggregate, response, bonds) if table is None else table
     if orientation == "worst":
         return flow.rotated(worst_initiation(carried, bonds, flow).rotation)
     return flow.rotated(orbit_initiation(response, carried, bonds, flow, criterion=criterion).rotation)
+
+
+def refuse_unknown_orientation(orientation: Orientation | Any) -> None:
+    """Refuse what is neither the name of an orientation nor a rotation."""
+    if not isinstance(orientation, str):
+        _checks.rotation_matrix("orientation", orientation)
+    elif orientation not in get_args(Orientation):
+        known = ", ".join(map(repr, get_args(Orientation)))
+        raise ValueError(f"orientation: expected one of {known} or a rotation, got {orientation!r}")

@@ -15,10 +15,15 @@ from rheoclast._threads import one_blas_thread
 from rheoclast.breakup.contact_response import ContactResponse
 from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.criteria.criterion import AnyOf, Criterion
-from rheoclast.mechanics.criteria.load_ratios import limited_parts, load_ratios, refuse_without_strength
+from rheoclast.mechanics.criteria.load_ratios import (
+    largest_ratios,
+    limited_parts,
+    load_ratios,
+    refuse_without_strength,
+)
 from rheoclast.mechanics.criteria.tension import Tension
 
-ROUNDING = 1e-10  # of what a contact bears in other flows: loads that vanish by symmetry are as large
+ROUNDING = 1e-10  # of the largest load in any flow: loads that vanish by symmetry are no larger
 RATIOS_AT_ONCE = 2**18  # contacts times flows: 2 MB of ratios, which stay in the cache; 60 MB of loads
 
 
@@ -55,10 +60,10 @@ class RatioResponse:
         return self.criterion.part_names
 
     @cached_property
-    def rounding(self) -> float:
-        """Load ratio per strain rate that is rounding: far below what any contact bears in a unit strain, s."""
-        unit_strains = np.concatenate([np.eye(5), -np.eye(5)])
-        return ROUNDING * float(np.abs(self._ratios(unit_strains)).max(initial=0.0))
+    def rounding(self) -> FloatArray:
+        """Load ratio (C,) per strain rate that is rounding, s: loads far below the largest in any contact and flow."""
+        force, moment = (float(np.abs(loads).max(initial=0.0)) for loads in (self.table.force, self.table.moment))
+        return ROUNDING * largest_ratios(force, moment, self.bonds, self.criterion, len(self.table.normals))
 
     def largest(self, components: FloatArray) -> tuple[FloatArray, IntArray, IntArray]:
         """Largest load ratio (n,), its contact (n,) and its position in `criteria` (n,).

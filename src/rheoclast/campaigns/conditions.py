@@ -126,6 +126,11 @@ class Conditions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     rule: str = "weakest"
     up_to: float | None = None
 
+    @property
+    def draws_orientations(self) -> bool:
+        """Whether something of an aggregate's orientation is random: all but the worst."""
+        return self.histories is not None or isinstance(self.orientations, Orientations)
+
     def __post_init__(self) -> None:
         for name in ("viscosity", "radius"):
             _checks.positive(name, getattr(self, name))

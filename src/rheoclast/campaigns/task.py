@@ -170,7 +170,7 @@ def _table(
         "parameters": canonical(task.parameters).decode(),
         "replicate": task.replicate,
         "seed": task.seed,
-        "orientation_seed": task.orientation_seed,
+        "orientation_seed": task.orientation_seed if task.conditions.draws_orientations else None,
         "history_seed": task.history_seed,
         "material": material.name,
         **_versions(),

@@ -26,6 +26,7 @@ from rheoclast.cli.units import UnitNames, Units
 from rheoclast.flows import LinearFlow
 from rheoclast.hydrodynamics.response import RigidResponse
 from rheoclast.io.contact_table import write_pairs
+from rheoclast.io.lengths import DIMENSIONLESS
 from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.criteria.criterion import Criterion
 from rheoclast.mechanics.criteria.load_ratios import load_ratios
@@ -169,15 +170,15 @@ def write_breakup(
             io.write_table(unfinished / "pieces.csv", piece_table(pieces, tags))
         digits = len(str(len(remaining)))
         for k, fragment in enumerate(remaining):
-            _write_fragment(unfinished, f"fragment_{k + 1:0{digits}d}", fragment)
+            _write_fragment(unfinished, f"fragment_{k + 1:0{digits}d}", fragment, length_unit or DIMENSIONLESS)
         view.save(view.draw_crack(breakup, flow=broken.flow, length_unit=length_unit), unfinished / "crack.png")
         if animation:
             view.animate_crack(breakup, unfinished / "crack.gif", flow=broken.flow, length_unit=length_unit)
 
 
-def _write_fragment(folder: Path, name: str, fragment: Aggregate) -> None:
+def _write_fragment(folder: Path, name: str, fragment: Aggregate, unit: str) -> None:
     """Spheres, and the contacts that are left: fewer than those that touch."""
-    io.write(folder / f"{name}.dat", fragment)
+    io.write(folder / f"{name}.dat", fragment, unit=unit)
     write_pairs(folder / f"{name}_contacts.csv", fragment.pairs)
 
 

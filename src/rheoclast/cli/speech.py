@@ -32,7 +32,7 @@ WRONG_USE = (
     (r"^Missing option '(--[\w-]+).*", r"expected \1 with a value, got nothing"),
     (r"^Argument '(.+?)' takes (\d+) values.*", r"\1: expected \2 values, got fewer"),
     (r"^Option '(.+?)' requires an argument.*", r"\1: expected a value behind it, got nothing"),
-    (r"^Option '(.+?)' requires (\d+) arguments.*", r"\1: expected \2 values separated by spaces, got fewer"),
+    (r"^Option '(.+?)' requires (\d+) arguments.*", r"\1: expected \2 values, not in quotation marks, got fewer"),
     (
         r"^Got unexpected extra argument(?:s|\(s\))? \((.+)\).*",
         r"expected no more, got \1; quote what is one value",

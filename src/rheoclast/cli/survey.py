@@ -149,10 +149,19 @@ def _show_failures(reasons: Counter[str], file: str) -> None:
 def _initiation_rates(events: pa.Table) -> Iterator[tuple[str, Table]]:
     """Quantiles of the rate of the flow at the first failure, by kind of aggregate, material and flow."""
     kinds = [*IN_FLOWS, "parameters"]
-    groups = events.group_by(kinds, use_threads=False).aggregate([(INITIATION_RATE, "list")])
+    groups = _grouped(events, kinds, [(INITIATION_RATE, "list")])
     cells = [_quantiles(rates.values.to_numpy()) for rates in groups[f"{INITIATION_RATE}_list"]]
     headings = ("events", *(f"{quantile:.0%}" for quantile in QUANTILES))
     return _tables(groups.select(kinds), IN_FLOWS, "initiation rate, 1/s: quantiles", headings, cells)
+
+
+def _grouped(events: pa.Table, kinds: list[str], aggregated: list[tuple[str, str]]) -> pa.Table:
+    """Aggregates of the rows of each kind, in the order in which the kinds come first."""
+    import pyarrow as pa
+
+    numbered = events.append_column("row", pa.array(np.arange(len(events))))
+    groups = numbered.group_by(kinds, use_threads=False).aggregate([*aggregated, ("row", "min")])
+    return groups.sort_by("row_min")
 
 
 def _quantiles(rates: FloatArray) -> tuple[str, ...]:
@@ -164,7 +173,7 @@ def _quantiles(rates: FloatArray) -> tuple[str, ...]:
 def _breakage_rates(events: pa.Table) -> Iterator[tuple[str, Table]]:
     """First failures over the time in which they may have happened; those overloaded from the start have none."""
     kinds = [*IN_HISTORIES, "parameters", DISSIPATION]
-    groups = events.group_by(kinds, use_threads=False).aggregate([(name, "sum") for name in PASSAGE])
+    groups = _grouped(events, kinds, [(name, "sum") for name in PASSAGE])
     sums = zip(*(groups[name].to_pylist() for name in (DISSIPATION, *(f"{name}_sum" for name in PASSAGE))), strict=True)
     cells = [
         (f"{dissipation:.3g}", str(overloaded), *_breakage_rate(failures - overloaded, time))

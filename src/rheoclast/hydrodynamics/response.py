@@ -27,7 +27,6 @@ SAME_PLACE = 1e-9  # units of length
 DIMENSIONLESS_VISCOSITY = 1.0
 
 
-@_checks.instances
 def rigid_response(
     spheres: Spheres, model: HydrodynamicModel, viscosity: float, progress: Progress | None = None
 ) -> RigidResponse:
@@ -54,8 +53,10 @@ def rigid_response(
     Warns
     -----
     UnitWarning
-        If radii exceed 1 mm or the viscosity 1000 Pa s.
+        If radii exceed 1 mm or are below 0.1 nm, or the viscosity exceeds 1000 Pa s.
     """
+    _checks.instance("spheres", spheres, Spheres)
+    _checks.instance("model", model, HydrodynamicModel)
     viscosity = _checks.positive("viscosity", viscosity)
     if viscosity != DIMENSIONLESS_VISCOSITY:
         warn_of_radii(spheres.radii)

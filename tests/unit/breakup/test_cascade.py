@@ -148,3 +148,17 @@ def test_by_a_rotation_as_if_the_flow_were_turned():
 def test_flow_without_strain(gradient):
     with pytest.raises(ValueError, match="flow: expected a strain rate that is not zero, got none; a rotation loads"):
         rc.cascade(*setting(straight_chain(3)), rc.LinearFlow(gradient))
+
+
+def test_nonsense_is_refused_whatever_the_aggregate():
+    """A single sphere, of which nothing can break, and spheres that the response does not belong to."""
+    one = rc.Aggregate.touching(rc.Spheres([[0, 0, 0]], 1.0))
+    response = rc.rigid_response(one.spheres, rc.FreeDraining(), 1.0)
+    bonds, flow = rc.Bonds(1.0, 1.0, 1.0, 1.0, 1.0), rc.simple_shear(1.0)
+    assert len(rc.cascade(one, response, bonds, flow).pieces) == 1
+    with pytest.raises(ValueError, match=r"^orientation: expected one of 'given', .* or a rotation, got 'best'$"):
+        rc.cascade(one, response, bonds, flow, orientation="best")
+    with pytest.raises(ValueError, match=r"^rule: expected 'weakest' or 'overloaded', got 'strongest'$"):
+        rc.cascade(one, response, bonds, flow, rule="strongest")
+    with pytest.raises(rc.GeometryError, match="solved for other spheres"):
+        rc.cascade(rc.generation.straight_chain(3), response, bonds, flow)

@@ -103,8 +103,23 @@ def test_a_doublet_that_symmetry_spares_is_not_broken(axis):
     table = rc.contact_response(doublet, response, bonds)
     assert rc.initiation(table, bonds, rc.simple_shear(1.0)).contact is None
     assert rc.break_up(doublet, response, bonds, rc.simple_shear(1.0)).outcome == "whole"
+    if axis == [0, 0, 1]:  # along the vorticity it stays
+        assert rc.orbit_initiation(response, table, bonds, rc.simple_shear(1.0)).contact is None
     slightly = rc.initiation(table, bonds, rc.simple_shear(1.0).rotated(Rotation.from_rotvec([1e-3, 2e-3, 3e-3])))
     assert (slightly.contact is not None) == (table.loads(slightly.flow).tension[0] > 0)
+
+
+@pytest.mark.parametrize("factor", [1e-6, 1e-9, 1e-11])
+def test_a_weak_contact_that_is_pressed_does_not_hide_the_one_that_fails(factor):
+    star = rc.generation.cross(2)
+    response = rc.rigid_response(star.spheres, rc.FreeDraining(), 1.0)
+    table, flow = rc.contact_response(star, response), rc.planar_extension(1.0)
+    tension = table.loads(flow).tension
+    strength = np.where(np.arange(len(tension)) == tension.argmin(), factor, 1.0)
+    bonds = rc.Bonds(1.0, 1.0, 1.0, 1.0, tensile_strength=strength)
+    first = rc.initiation(table, bonds, flow)
+    assert first.rate == pytest.approx(1 / tension.max())
+    assert rc.break_up(star, response, bonds, flow).failures[0].rate == pytest.approx(first.rate)
 
 
 def test_a_rate_of_zero_is_refused_for_a_strain():

@@ -338,3 +338,15 @@ class TestRefusal:
             history.exceedances(np.nan)
         with pytest.raises(ValueError, match="level: expected a finite number, got inf"):
             history.peaks(np.inf)
+
+
+def test_a_steady_load_has_no_peaks_between_the_samples():
+    """A ball in uniaxial extension does not turn: its load varies by rounding, which is not sampled more finely."""
+    ball = rc.generation.lattice_ball("fcc", 13)
+    response = rc.rigid_response(ball.spheres, rc.FreeDraining(), 1.0)
+    path = rc.trajectory(response, rc.uniaxial_extension(1.0), 50.0)
+    bonds = rc.Bonds(1.0, 0.8, 0.01, 0.01, tensile_strength=1.0, shear_strength=1.0)
+    history = rc.load_history(path, rc.contact_response(ball, response, bonds), bonds)
+    assert np.ptp(history.largest) < 1e-9 * history.largest.max()
+    spacing = np.diff(history.times)
+    assert (spacing < 0.1 * np.median(spacing)).sum() < 5

@@ -47,6 +47,15 @@ def load_ratios(loads: ContactLoads, bonds: Bonds, *, criterion: Criterion = EVE
     return np.stack([part.load_ratio(loads, bonds) for part in criterion.parts], axis=-1)
 
 
+def largest_ratios(force: float, moment: float, bonds: Bonds, criterion: Criterion, contacts: int) -> FloatArray:
+    """Load ratios (C,) up to which a force in N and a moment in N m bring each of `contacts` contacts."""
+    ratios = [
+        (force if name in ("tensile_strength", "shear_strength") else moment) / getattr(bonds, name)
+        for name in criterion.strengths
+    ]
+    return np.max([np.broadcast_to(ratio, contacts) for ratio in ratios], axis=0)
+
+
 def limited_parts(bonds: Bonds, criterion: Criterion) -> IntArray:
     """Positions among `Criterion.parts` of those that use a strength that is finite for some contact."""
     finite = {name for name in criterion.strengths if np.isfinite(getattr(bonds, name)).any()}

@@ -27,7 +27,7 @@ function points(width, chart, { points, medians }) {
   const all = (key, bars) => [...points.flatMap((each) => each[key]), ...known.flatMap((each) => bars.map((bar) => each[bar]))].filter((value) => value !== null);
   const [x, y] = [all("x", ["x"]), all("y", ["y", "low", "high"])];
   if (!y.length) return empty(width);
-  const axes = new Axes(width, [paddedByFactor(spread(x)), paddedByFactor(spread(y))], [chart.x.label, chart.y.label], [chart.x.log, chart.y.log]);
+  const axes = new Axes(width, [paddedByFactor(x), paddedByFactor(y)], [chart.x.label, chart.y.label], [chart.x.log, chart.y.log]);
   const small = points.flatMap((each, k) =>
     apart(axes, each.x, each.y).filter((n) => each.y[n] !== null).map((n) => symbol(k, axes.x(each.x[n]), axes.y(each.y[n]), SMALL, shown(each.y[n]))),
   );

@@ -1,7 +1,7 @@
 // Charts as SVG: quiet axes, one colour, drawn anew at every width.
 
 const HEIGHT = 260;
-const MARGINS = { left: 74, right: 14, top: 10, bottom: 44 };
+const MARGINS = { left: 84, right: 14, top: 10, bottom: 44 };
 const BINS = 30;
 const MOST_BARS = 40;
 
@@ -143,7 +143,8 @@ function padded([low, high]) {
 }
 
 // The same for values on a logarithmic scale.
-function paddedByFactor([low, high]) {
-  const room = (high / low) ** 0.05 * 1.02;
+function paddedByFactor(values) {
+  const [low, high] = [Math.min(...values), Math.max(...values)];
+  const room = low < high ? (high / low) ** 0.05 * 1.02 : 1.2;
   return [low / room, high * room];
 }
