@@ -161,6 +161,25 @@ families = [{{ name = "straight-chain", count = 4 }}]
     assert cells(page, 0, 1) == [evil]
 
 
+def test_one_aggregate_is_drawn(opened, campaign, overlapping_texts):
+    """Axes of one value, of a rate that some orientations do not have, and of a distance that is rounding."""
+    folder = campaign("""
+event = "first failure"
+viscosity = 1e-3
+radius = 1e-6
+hydrodynamics = { model = "free-draining" }
+flows = ["uniaxial"]
+orientations = { number = 3 }
+materials = ["polystyrene"]
+families = [{ name = "straight-chain", count = 4 }]
+""")
+    page = opened(folder, 1300, until=CHARTS)
+    assert page.locator("#charts figure").first.locator("path.point, path[stroke-width='1.6']").count() > 0
+    assert page.locator("#charts path.distribution").count() == 2
+    assert "NaN" not in page.locator("#charts").inner_html()
+    assert overlapping_texts(page) == []
+
+
 def test_printed_charts_fit_the_paper(opened, surveyed):
     """Charts are drawn for the screen and scaled on paper of another width."""
     page = opened(surveyed, 1300, until=CHARTS)

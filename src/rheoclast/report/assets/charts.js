@@ -1,7 +1,7 @@
 // Charts as SVG: quiet axes, one colour, drawn anew at every width.
 
 const HEIGHT = 260;
-const MARGINS = { left: 84, right: 14, top: 10, bottom: 44 };
+const MARGINS = { left: 92, right: 22, top: 10, bottom: 44 };
 const BINS = 30;
 const MOST_BARS = 40;
 

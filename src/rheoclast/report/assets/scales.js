@@ -38,7 +38,7 @@ class LogarithmicScale {
     const by = (steps) => powers.flatMap((power) => steps.map((step) => Number(`${step}e${power}`))).filter(inside);
     const fine = by([1, 2, 5]);
     if (every > 1 || fine.length > 1.5 * count) return by([1]);
-    return fine.length > 1 ? fine : ticks(this.low, this.high, Math.min(count, 4));
+    return fine.length > 1 ? fine : ticks(this.low, this.high, Math.min(count, 2));
   }
 
   mark(value) {

@@ -16,7 +16,7 @@ from rheoclast._checks import FloatArray
 from rheoclast.fits import CONFIDENCE
 from rheoclast.report.campaign.kinds import Condition, Kind, conditions, met_name, quantiles, series
 from rheoclast.report.campaign.tables import QUARTILES, found_rate
-from rheoclast.report.numbers import shortened
+from rheoclast.report.numbers import ROUNDING, shortened
 from rheoclast.report.wording import percent
 from rheoclast.view.fragments import counted
 from rheoclast.view.quantities import prefixed
@@ -155,7 +155,7 @@ def _edges(values: FloatArray, axis: Axis) -> FloatArray:
     low, high = float(values.min()), float(values.max())
     if axis.is_logarithmic:
         return np.geomspace(*((low, high) if low < high else (low / WIDENED, high * WIDENED)), BINS + 1)
-    return np.linspace(0, axis.until or high or 1.0, BINS + 1)
+    return np.linspace(0, axis.until or (high if high > ROUNDING else 1.0), BINS + 1)
 
 
 def _breakage_rates(together: Mapping[str, Sequence[Kind]], met: Mapping[Condition, str]) -> Content:
