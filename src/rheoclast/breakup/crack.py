@@ -123,9 +123,8 @@ def break_up_each(
     limit = up_to if up_to == np.inf else _checks.positive("up_to", up_to)
     intact = loosenable(aggregate, bonds)
     places = np.stack([place(aggregate, aggregate.contact_points) for place in (radial_position, depth)], axis=1)
-    unit_loads = intact.loaded(response.strain_loads).loads
-    force, moment = (float(np.abs(loads).max(initial=0.0)) for loads in (unit_loads.force, unit_loads.moment))
-    negligible = NEGLIGIBLE * largest_ratios(force, moment, bonds, criterion, len(aggregate.pairs))
+    unit = intact.loaded(response.strain_loads).loads
+    negligible = NEGLIGIBLE * largest_ratios(unit.force, unit.moment, bonds, criterion, len(aggregate.pairs))
     setting = _Setting(aggregate, bonds, criterion, rule, limit, response.order, intact, negligible, places)
     return (_event(setting, response, flow) for flow in flows)
 

@@ -104,7 +104,7 @@ def initiations(
     turned = turns @ flow.strain_rate @ np.swapaxes(turns, -1, -2)
     components = strain_components(turned)
     ratio, contact, part, next_ratio = ratios.largest_two(components)
-    fails = ratio > ratios.rounding[contact] * np.linalg.norm(components, axis=1)
+    fails = ~ratios.is_rounding(ratio, contact, components)
     rate = np.divide(flow.rate, ratio, out=np.full(len(ratio), np.inf), where=fails)
     margin = np.divide(ratio - np.maximum(next_ratio, 0.0), ratio, out=np.zeros(len(ratio)), where=fails)
     contact, part = np.where(fails, contact, -1), np.where(fails, part, -1)

@@ -17,6 +17,7 @@ from rheoclast.hydrodynamics.trajectory import Trajectory, trajectory
 from rheoclast.mechanics.bonds import Bonds
 from rheoclast.mechanics.criteria.criterion import Criterion
 from rheoclast.mechanics.criteria.load_ratios import EVERY_LIMIT
+from rheoclast.vectors import strain_components
 
 LONG = 200.0  # inverse magnitudes: a dozen turns of an open aggregate in shear
 
@@ -80,7 +81,7 @@ def orbit_initiation(
     orbit = trajectory(response, flow, duration=length, start=start)
     history = load_history(orbit, table, bonds, criterion=criterion)
     worst = history.maximum
-    if worst.ratio <= history.loads.ratios.rounding[worst.contact] * np.linalg.norm(flow.strain_rate):
+    if history.loads.ratios.is_rounding(worst.ratio, worst.contact, strain_components(flow.strain_rate)):
         return OrbitInitiation(None, None, np.inf, flow, UNTURNED, 0.0, orbit)
     critical, rotation = orbit.flow(worst.time).scaled(1 / worst.ratio), _checks.frozen(orbit.rotation(worst.time).T)
     return OrbitInitiation(worst.contact, worst.criterion, critical.rate, critical, rotation, worst.time, orbit)

@@ -59,11 +59,17 @@ class RatioResponse:
         """Names of all the criterion's parts, those that do not count among them."""
         return self.criterion.part_names
 
+    def is_rounding(
+        self, ratio: FloatArray | float, contact: IntArray | int, components: FloatArray
+    ) -> NDArray[np.bool_]:
+        """Whether load ratios (n,) of contacts (n,) are rounding, or negative, in strain rates (n, 5)."""
+        return np.less_equal(ratio, self._rounding[contact] * np.linalg.norm(components, axis=-1))
+
     @cached_property
-    def rounding(self) -> FloatArray:
-        """Load ratio (C,) per strain rate that is rounding, s: loads far below the largest in any contact and flow."""
-        force, moment = (float(np.abs(loads).max(initial=0.0)) for loads in (self.table.force, self.table.moment))
-        return ROUNDING * largest_ratios(force, moment, self.bonds, self.criterion, len(self.table.normals))
+    def _rounding(self) -> FloatArray:
+        """Load ratio (C,) per strain rate, s, of loads far below the largest in any contact and flow."""
+        count = len(self.table.normals)
+        return ROUNDING * largest_ratios(self.table.force, self.table.moment, self.bonds, self.criterion, count)
 
     def largest(self, components: FloatArray) -> tuple[FloatArray, IntArray, IntArray]:
         """Largest load ratio (n,), its contact (n,) and its position in `criteria` (n,).

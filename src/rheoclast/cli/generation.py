@@ -103,12 +103,7 @@ def command_of(name: str, family: Family) -> Callable[..., None]:
         *,
         output: Annotated[
             Path | None,
-            typer.Option(
-                metavar="<file>",
-                help="File to write; by default named after the family.",
-                rich_help_panel=options.OUTPUT,
-                show_default=False,
-            ),
+            options.valued("<file>", "File to write; by default named after the family.", options.OUTPUT),
         ] = None,
         file_format: options.FormatToWrite = None,
         overwrite: options.Overwrite = False,

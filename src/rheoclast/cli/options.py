@@ -40,6 +40,11 @@ PROPERTIES = {
 """Properties of a material, and their names in a summary."""
 
 
+def valued(metavar: str, help_text: str, panel: str | None = None, **more: Any) -> Any:
+    """An option with a value; there is no default to be shown where it is none."""
+    return typer.Option(metavar=metavar, help=help_text, rich_help_panel=panel, **more)
+
+
 def _choice(option: str, choices: Collection[str], help_text: str, panel: str, **more: Any) -> Any:
     """An option whose value is one of some names, which stand for `{}` in its help and which the shell completes."""
     return typer.Option(
@@ -53,8 +58,8 @@ def _choice(option: str, choices: Collection[str], help_text: str, panel: str, *
 
 
 def _number(help_text: str, panel: str) -> Any:
-    """An option whose value is a number; there is no default to be shown where it is none."""
-    return typer.Option(metavar="<number>", parser=number, help=help_text, rich_help_panel=panel)
+    """An option whose value is a number."""
+    return valued("<number>", help_text, panel, parser=number)
 
 
 def _flag(option: str, help_text: str, panel: str) -> Any:
@@ -97,13 +102,7 @@ Viscosity = Annotated[float, _number("Viscosity of the liquid, Pa s.", LIQUID)]
 Animation = Annotated[bool, _flag("--animation", "Write crack.gif too.", OUTPUT)]
 Output = Annotated[
     Path | None,
-    typer.Option(
-        metavar="<folder>",
-        parser=folder,
-        help="Folder for tables, geometry, pictures and summary.",
-        rich_help_panel=OUTPUT,
-        show_default=False,
-    ),
+    valued("<folder>", "Folder for tables, geometry, pictures and summary.", OUTPUT, parser=folder),
 ]
 Overwrite = Annotated[bool, _flag("--overwrite", "Replace files that exist.", OUTPUT)]
 Json = Annotated[bool, _flag("--json", "Print the summary as JSON and nothing else.", OUTPUT)]
@@ -145,11 +144,10 @@ class AggregateFile:
     ] = CONTACT_TOLERANCE
     contacts: Annotated[
         Path | None,
-        typer.Option(
-            metavar="<file>",
-            help="Table with columns i and j, the spheres in contact, counted from 0; by default all that touch.",
-            rich_help_panel=AGGREGATE,
-            show_default=False,
+        valued(
+            "<file>",
+            "Table with columns i and j, the spheres in contact, counted from 0; by default all that touch.",
+            AGGREGATE,
         ),
     ] = None
 
@@ -187,11 +185,10 @@ class FlowChoice:
     rate: Annotated[float | None, _number("Shear or extension rate, 1/s; by default 1.", FLOW)] = None
     gradient: Annotated[
         str | None,
-        typer.Option(
-            metavar="<9 numbers>",
-            help="Any velocity gradient instead: nine numbers in 1/s, row by row, in quotation marks.",
-            rich_help_panel=FLOW,
-            show_default=False,
+        valued(
+            "<9 numbers>",
+            "Any velocity gradient instead: nine numbers in 1/s, row by row, in quotation marks.",
+            FLOW,
         ),
     ] = None
 

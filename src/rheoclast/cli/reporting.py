@@ -17,12 +17,7 @@ def report_command(
     ],
     output: Annotated[
         Path | None,
-        typer.Option(
-            metavar="<file>",
-            help="The page; by default report.html in the folder.",
-            rich_help_panel=options.OUTPUT,
-            show_default=False,
-        ),
+        options.valued("<file>", "The page; by default report.html in the folder.", options.OUTPUT),
     ] = None,
     overwrite: options.Overwrite = False,
 ) -> None:

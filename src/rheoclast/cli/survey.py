@@ -15,7 +15,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from rheoclast.cli.console import INTERRUPTED, messages, progress_bar, screen
-from rheoclast.cli.options import FLAG
+from rheoclast.cli.options import FLAG, valued
 from rheoclast.cli.options import folder as folder_named
 from rheoclast.cli.speech import whole_number
 from rheoclast.fits import CONFIDENCE
@@ -40,29 +40,15 @@ OTHER_COLUMNS = [*IN_FLOWS, "parameters", INITIATION_RATE]
 
 Output = Annotated[
     Path | None,
-    typer.Option(
-        metavar="<folder>",
-        parser=folder_named,
-        help="Folder for the results; by default named after the campaign.",
-        show_default=False,
-    ),
+    valued("<folder>", "Folder for the results; by default named after the campaign.", parser=folder_named),
 ]
 Workers = Annotated[
     int | None,
-    typer.Option(
-        metavar="<integer>",
-        parser=whole_number,
-        help="Processes on this machine; by default one per core.",
-        show_default=False,
-    ),
+    valued("<integer>", "Processes on this machine; by default one per core.", parser=whole_number),
 ]
 Scheduler = Annotated[
     str | None,
-    typer.Option(
-        metavar="<address>",
-        help="Address of a scheduler of dask.distributed: work on its cluster instead.",
-        show_default=False,
-    ),
+    valued("<address>", "Address of a scheduler of dask.distributed: work on its cluster instead."),
 ]
 
 

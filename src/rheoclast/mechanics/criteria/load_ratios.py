@@ -18,6 +18,7 @@ EVERY_LIMIT: Criterion = AnyOf(Tension(), Sliding(), Rolling(), Twisting())
 """Each load against its own strength, for the strengths that are finite: with JKR contacts tension alone."""
 
 
+@_checks.instances
 def load_ratios(loads: ContactLoads, bonds: Bonds, *, criterion: Criterion = EVERY_LIMIT) -> FloatArray:
     """Load over strength (..., C, K) of C contacts by the K `Criterion.parts`. A contact fails where it reaches one.
 
@@ -40,20 +41,18 @@ def load_ratios(loads: ContactLoads, bonds: Bonds, *, criterion: Criterion = EVE
     TypeError
         If an argument is something else.
     """
-    _checks.instance("loads", loads, ContactLoads)
-    _checks.instance("bonds", bonds, Bonds)
-    _checks.instance("criterion", criterion, Criterion)
     bonds.refuse_other_count(len(loads.normals))
     return np.stack([part.load_ratio(loads, bonds) for part in criterion.parts], axis=-1)
 
 
-def largest_ratios(force: float, moment: float, bonds: Bonds, criterion: Criterion, contacts: int) -> FloatArray:
-    """Load ratios (C,) up to which a force in N and a moment in N m bring each of `contacts` contacts."""
-    ratios = [
-        (force if name in ("tensile_strength", "shear_strength") else moment) / getattr(bonds, name)
-        for name in criterion.strengths
-    ]
-    return np.max([np.broadcast_to(ratio, contacts) for ratio in ratios], axis=0)
+def largest_ratios(
+    force: FloatArray, moment: FloatArray, bonds: Bonds, criterion: Criterion, contacts: int
+) -> FloatArray:
+    """Load ratios (C,) to which the largest of forces in N and moments in N m could bring each of `contacts`."""
+    sizes = dict.fromkeys(("tensile_strength", "shear_strength"), np.abs(force).max(initial=0.0))
+    sizes |= dict.fromkeys(("bending_strength", "twisting_strength"), np.abs(moment).max(initial=0.0))
+    ratios = [np.broadcast_to(sizes[name] / getattr(bonds, name), contacts) for name in criterion.strengths]
+    return np.max(ratios, axis=0)
 
 
 def limited_parts(bonds: Bonds, criterion: Criterion) -> IntArray:
