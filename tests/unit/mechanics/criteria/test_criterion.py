@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
@@ -67,6 +67,7 @@ def test_every_criterion_is_public():
 
 
 @every_criterion
+@settings(deadline=None)
 @given(factor=st.floats(1e-12, 1e12), seed=st.integers(0, 1000))
 def test_load_ratio_is_proportional_to_the_loads(criterion, factor, seed):
     carried, bonds = random_loads(seed), random_bonds(seed)
